@@ -1,0 +1,74 @@
+// The renderer: begin a pass on a framebuffer, clear and draw, end it. Work is binned and done when someone looks.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "raster/api/draw_packet.h"
+#include "raster/api/framebuffer.h"
+
+namespace halfspace::raster {
+
+struct ClearCommand {
+  bool color = false, depth = false;
+  Color color_value;      // clamped to [0, 1] for rgba8
+  double depth_value = 1;  // in [0, 1]
+  ColorMask color_mask;
+  bool depth_write = true;
+  bool scissor_test = false;
+  Rect scissor;
+};
+
+// Counters since creation; HALFSPACE_STATS prints them.
+struct DeviceStatistics {
+  uint64_t draws = 0, vertices = 0, triangles = 0, culled = 0, clipped = 0, passes = 0;
+  uint64_t fragments = 0;         // lanes that reached a fragment program
+  uint64_t double_fragments = 0;  // of these, interpolated in double
+};
+
+struct DeviceOptions {
+  int threads = 0;  // 0: HALFSPACE_THREADS, or else all cores
+};
+
+// Not thread-safe; one Device a context. Any call may throw std::bad_alloc; what was drawn before stands.
+class Device {
+ public:
+  explicit Device(const DeviceOptions& options = {});
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  // Draws and clears go to `target` from now on. Work pending for another target is finished first.
+  // The framebuffer must outlive its pass; null ends the pass.
+  void begin_pass(Framebuffer* target);
+  void clear(const ClearCommand& command);
+  void draw(const DrawPacket& packet);
+
+  // Executes all pending work. With `image`, also converts the picture to it, tile by tile while it is hot.
+  void finish(const LinearImage* image = nullptr);
+
+  // Reads pixels of the current target (finishing first). `out`: row 0 is the lowest row of `rect`, rows packed.
+  // Pixels of `rect` outside the framebuffer are left as they are.
+  // read_color: 4 bytes a pixel, R, G, B, A (float framebuffers are clamped and rounded).
+  void read_color(const Rect& rect, uint8_t* out);
+  // 4 floats a pixel; for rgba8, c / 255.
+  void read_color_float(const Rect& rect, float* out);
+  // Depth as unsigned 24-bit integers, 0 .. 2^24 - 1.
+  void read_depth(const Rect& rect, uint32_t* out);
+
+  const DeviceStatistics& statistics() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// The instruction set in use: "scalar", "sse4", "avx2", "avx512" or "neon". Chosen once, by the CPU or by
+// HALFSPACE_ISA; a level this machine lacks falls to the next lower one.
+std::string_view isa_name();
+// All levels this machine and this build have, lowest first, separated by spaces.
+std::string_view isa_available();
+// For tests: force a level; returns false (and changes nothing) when it is not available.
+bool set_isa(std::string_view name);
+
+}  // namespace halfspace::raster

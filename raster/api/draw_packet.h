@@ -1,0 +1,38 @@
+// One draw: vertices, the order to take them in, and the state.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "raster/api/draw_state.h"
+
+namespace halfspace::raster {
+
+// Float components of one attribute, `size` (1..4) of them a vertex, `stride` bytes from vertex to vertex;
+// no alignment is asked for. Missing components are 0, 0, 0, 1. stride 0: one value for all vertices, which
+// the pipeline takes as "constant" and never interpolates.
+struct AttributeStream {
+  const void* data = nullptr;  // null: the attribute's default, (0,0,0,1); colour: (1,1,1,1)
+  size_t stride = 0;
+  uint8_t size = 4;
+};
+
+struct VertexBatch {
+  AttributeStream position;
+  AttributeStream color;
+  AttributeStream tex_coord;  // s, t, r, q
+  uint32_t count = 0;         // vertices; the streams hold elements 0 .. count-1
+};
+
+// indices: null takes the vertices 0, 1, 2 ... index_count - 1 in turn. Every index must be < batch.count.
+// Nothing is kept of the streams or the indices once Device::draw has returned.
+struct DrawPacket {
+  std::shared_ptr<const DrawState> state;
+  Primitive primitive = Primitive::triangles;
+  VertexBatch batch;
+  const uint32_t* indices = nullptr;
+  uint32_t index_count = 0;
+};
+
+}  // namespace halfspace::raster

@@ -1,0 +1,89 @@
+// What assembly leaves for the tiles: references to primitives, binned. Set-up (edges and planes) is done by the
+// tile's worker, eight primitives at once, so a primitive costs 16 bytes here and set-up runs on all threads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "raster/api/draw_packet.h"
+#include "raster/vertex/shaded_vertices.h"
+
+namespace halfspace::raster {
+
+inline constexpr int kTileSize = 64;    // pixels a side
+inline constexpr int kBlockSize = 8;    // pixels a side; a tile has 8x8 blocks of 64 pixels
+inline constexpr int kMaxPlanes = 9;    // depth, 1/w, then up to 7 attributes
+
+// f(x, y) = f0 + dfdx * (x - x0) + dfdy * (y - y0), x and y in pixels at pixel centres.
+struct Plane {
+  double f0, dfdx, dfdy;
+};
+
+// Attribute planes of a triangle that was cut, from the whole (uncut) triangle in homogeneous coordinates, all
+// relative to one anchor (x0, y0) in 16.8. Planes: [0] depth in [0,1], [1] 1/w, [2 + i] attribute i / w.
+struct PlaneSource {
+  int32_t x0, y0;
+  uint32_t provoking;  // vertex that gives the flat colour
+  Plane planes[kMaxPlanes];
+};
+
+// A triangle of a cut polygon: its own corners, the planes of its source.
+struct CutTriangle {
+  int32_t x[3], y[3];  // 16.8, counter-clockwise or clockwise as the source was
+  uint32_t source;     // index of its PlaneSource
+};
+
+enum class PrimitiveKind : uint8_t { triangle, line, point };
+
+struct PrimitiveRef {
+  uint32_t v[3];          // vertices of the draw, in submission order; cut triangle: v[0] indexes cut_triangles
+  PrimitiveKind kind;
+  bool cut;
+  bool back_facing;
+  uint8_t provoking;      // 0..2: which of v gives the flat colour
+};
+static_assert(sizeof(PrimitiveRef) == 16);
+
+// A draw as the tiles see it. Lives until the pass is finished.
+struct DrawRecord {
+  std::shared_ptr<const DrawState> state;
+  ShadedVertices vertices;
+  Rect bounds;  // viewport-independent: framebuffer cut by the scissor; fragments outside are never made
+};
+
+// Primitives of one stretch of the command stream, in order, with their bins. Filled by one thread at a time.
+// A bin holds indices into `primitives`, ascending.
+struct Segment {
+  struct DrawStart {
+    uint32_t first_primitive;
+    const DrawRecord* draw;
+  };
+  std::vector<PrimitiveRef> primitives;
+  std::vector<CutTriangle> cut_triangles;
+  std::vector<PlaneSource> plane_sources;
+  std::vector<DrawStart> draws;  // ascending first_primitive
+  std::vector<std::vector<uint32_t>> bins;  // tiles_x * tiles_y, row by row from the bottom
+  std::vector<uint32_t> touched;            // tiles whose bin is not empty
+  int tiles_x = 0, tiles_y = 0;
+  uint64_t triangles_in = 0, culled = 0, clipped = 0;  // statistics
+
+  void reset(int new_tiles_x, int new_tiles_y) {
+    if (new_tiles_x != tiles_x || new_tiles_y != tiles_y) {
+      bins.clear();
+      bins.resize(size_t(new_tiles_x) * size_t(new_tiles_y));
+      tiles_x = new_tiles_x;
+      tiles_y = new_tiles_y;
+    } else {
+      for (uint32_t t : touched) bins[t].clear();
+    }
+    touched.clear();
+    primitives.clear();
+    cut_triangles.clear();
+    plane_sources.clear();
+    draws.clear();
+    triangles_in = culled = clipped = 0;
+  }
+};
+
+}  // namespace halfspace::raster

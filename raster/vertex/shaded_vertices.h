@@ -1,0 +1,67 @@
+// What the vertex stage leaves for assembly and set-up: one record a vertex, only the attributes the state calls for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "raster/api/types.h"
+
+namespace halfspace::raster {
+
+inline constexpr int kSubpixelBits = 8;                   // 16.8 fixed-point window coordinates
+inline constexpr int kSubpixelScale = 1 << kSubpixelBits;
+// Window coordinates are cut beyond this band only: [kGuardBandMin, kGuardBandMax) pixels. With it every edge
+// vector fits 24 bits and every edge value of a 64x64 tile fits an int32 once the sub-pixel bits are dropped.
+inline constexpr int kGuardBandMin = -8192;
+inline constexpr int kGuardBandMax = 24576;
+
+// Head of a record; `attribute_count` floats of VertexLayout follow it at once.
+struct VertexHead {
+  int32_t x, y;   // window position, 16.8, snapped: floor(v * 256 + 0.5). Undefined when the outcode says clip.
+  double z;       // window depth in [0, 1], after the depth range
+  double inv_w;   // 1 / clip-space w
+};
+
+// Which floats a record holds. Offsets count floats from the end of VertexHead; -1: not there.
+struct VertexLayout {
+  int attribute_count = 0;
+  int color = -1;          // 4 floats: r, g, b, a, clamped to [0, 1]
+  int tex_coord = -1;      // 2 floats s, t; or 3 floats s, t, q when `projective`
+  bool projective = false;
+  Color constant_color{1, 1, 1, 1};  // used (already clamped) when color == -1
+  size_t stride() const { return sizeof(VertexHead) + ((size_t(attribute_count) * 4 + 7) & ~size_t{7}); }
+};
+
+// Why a vertex may need more than a look: zero means inside the frustum, finite and w > 0.
+enum Outcode : uint16_t {
+  kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 8,  // frustum in x and y: reject only, never cut
+  kOutNear = 16, kOutFar = 32,
+  kOutGuardLeft = 64, kOutGuardRight = 128, kOutGuardBottom = 256, kOutGuardTop = 512,
+  kOutW = 1024,            // w <= 0 or so small that the divide is not to be trusted
+  kOutNotFinite = 2048,    // NaN or infinity: every primitive of this vertex is dropped
+  kOutCutMask = kOutNear | kOutFar | kOutGuardLeft | kOutGuardRight | kOutGuardBottom | kOutGuardTop | kOutW,
+};
+
+struct ClipVertex {
+  double x, y, z, w;
+};
+
+// All vertices of one draw. Records are contiguous so that set-up can index them; clip coordinates and outcodes
+// are needed only until assembly is done.
+struct ShadedVertices {
+  VertexLayout layout;
+  std::byte* records = nullptr;            // count * layout.stride() bytes, owned by the device's arena
+  uint32_t count = 0;
+  std::vector<uint16_t> outcodes;          // count
+  std::vector<ClipVertex> clip;            // count
+  const VertexHead& head(uint32_t i) const {
+    return *reinterpret_cast<const VertexHead*>(records + i * layout.stride());
+  }
+  const float* attributes(uint32_t i) const {
+    return reinterpret_cast<const float*>(records + i * layout.stride() + sizeof(VertexHead));
+  }
+};
+
+}  // namespace halfspace::raster
