@@ -1,0 +1,74 @@
+// A GL context: the attribute groups of the specification, side by side. The work is in the groups' own files.
+#pragma once
+
+#include <memory>
+
+#include "raster/api/device.h"
+#include "state/color_buffer.h"
+#include "state/current.h"
+#include "state/depth_buffer.h"
+#include "state/drawable.h"
+#include "state/error.h"
+#include "state/hint.h"
+#include "state/immediate.h"
+#include "state/lighting.h"
+#include "state/pixel_store.h"
+#include "state/polygon.h"
+#include "state/scissor.h"
+#include "state/texture.h"
+#include "state/transform.h"
+#include "state/vertex_array.h"
+#include "state/viewport.h"
+#include "state/derive/derived.h"
+
+namespace halfspace::state {
+
+struct OperationTable;  // state/operations.gen.h
+
+struct Context {
+  // `share`: context whose texture objects (later: lists) this one uses too, or null.
+  Context(const VisualConfig& visual, Context* share);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  VisualConfig visual;
+  Drawable* drawable = nullptr;  // null while not current
+  bool was_current = false;      // the first make-current sets viewport and scissor to the drawable's size
+  const OperationTable* table;   // what entry points call now: outside, or inside Begin/End
+
+  ErrorState error;
+  CurrentState current;
+  TransformState transform;
+  ViewportState viewport;
+  ScissorState scissor;
+  PolygonState polygon;
+  LightingState lighting;
+  DepthBufferState depth_buffer;
+  ColorBufferState color_buffer;
+  HintState hint;
+  TextureState texture;
+  PixelStoreState pixel_store;
+  VertexArrayState vertex_array;
+  ImmediateState immediate;
+  DerivedState derived;
+
+  raster::Device device;
+};
+
+// The calling thread's context and its table; null and the table of no-operations when there is none. Read by every
+// entry point, hence initial-exec.
+struct CurrentBinding {
+  Context* context;
+  const OperationTable* table;
+};
+extern thread_local CurrentBinding current_binding __attribute__((tls_model("initial-exec")));
+
+// Makes `context` current on `drawable` for the calling thread; both null releases. Work pending in the context that
+// was current is executed first (as glFlush). Also the way a front end says that the drawable changed its size.
+void make_current(Context* context, Drawable* drawable);
+
+// Swaps which operations the entry points reach (Begin, End, and later NewList).
+void set_table(Context& context, const OperationTable& table);
+
+}  // namespace halfspace::state
