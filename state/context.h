@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "raster/api/device.h"
+#include "state/capability.h"
 #include "state/color_buffer.h"
 #include "state/current.h"
 #include "state/depth_buffer.h"
@@ -38,6 +39,7 @@ struct Context {
   const OperationTable* table;   // what entry points call now: outside, or inside Begin/End
 
   ErrorState error;
+  CapabilityState capability;
   CurrentState current;
   TransformState transform;
   ViewportState viewport;

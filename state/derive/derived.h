@@ -1,0 +1,43 @@
+// From GL's state to the raster room's: what a draw needs, rebuilt only where something changed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "raster/api/draw_packet.h"
+#include "raster/api/draw_state.h"
+
+namespace halfspace::state {
+
+struct Context;
+
+// What a setter says it changed.
+enum DirtyBits : uint32_t {
+  kDirtyTransform = 1,  // modelview, projection
+  kDirtyViewport = 2,   // viewport, depth range
+  kDirtyRaster = 4,     // culling, shade model, scissor
+  kDirtyFragment = 8,   // alpha test, depth, blend, colour mask
+  kDirtyTexture = 16,   // texture enables, bindings, objects, environment, texture matrix
+  kDirtyAll = 31,
+};
+
+struct DerivedState {
+  uint32_t dirty = kDirtyAll;
+  raster::Accuracy accuracy = raster::Accuracy::standard;
+  std::shared_ptr<const raster::DrawState> state;
+};
+
+// `bits`: DirtyBits.
+void mark_dirty(Context& context, uint32_t bits);
+
+// The draw state of the context as it is now. A draw keeps a reference; the next change makes a new one.
+const std::shared_ptr<const raster::DrawState>& derive(Context& context);
+
+// HALFSPACE_ACCURACY; standard, with a message, when it says nothing known.
+raster::Accuracy accuracy_from_environment();
+
+// Draws on every buffer that drawing goes to. `packet.state` is filled in here. Out of memory is recorded as
+// GL_OUT_OF_MEMORY.
+void submit(Context& context, raster::DrawPacket& packet);
+
+}  // namespace halfspace::state
