@@ -59,12 +59,12 @@ struct Context {
 };
 
 // The calling thread's context and its table; null and the table of no-operations when there is none. Read by every
-// entry point, hence initial-exec.
+// entry point, hence initial-exec, and constinit: no call to see whether it is initialised.
 struct CurrentBinding {
   Context* context;
   const OperationTable* table;
 };
-extern thread_local CurrentBinding current_binding __attribute__((tls_model("initial-exec")));
+extern constinit thread_local CurrentBinding current_binding __attribute__((tls_model("initial-exec")));
 
 // Makes `context` current on `drawable` for the calling thread; both null releases. Work pending in the context that
 // was current is executed first (as glFlush). Also the way a front end says that the drawable changed its size.
