@@ -62,19 +62,30 @@ def operations_source(operations):
         return "\n".join(f"    .{op.name} = {value(op)}," for op in operations)
 
     def inside(op):
-        return f"op::{op.name}" if "begin" in op.flags else "refuse_inside_begin"
+        return f"op::{op.name}" if "begin" in op.flags else f'refuse<"{op.name}">'
 
     return f"""{NOTICE}
 #include "state/operations.gen.h"
+
+#include <cstddef>
 
 #include "state/error.h"
 
 namespace halfspace::state {{
 namespace {{
 
-template <typename Result, typename... Arguments>
-Result refuse_inside_begin(Context& context, Arguments...) {{
-  record_error(context, GL_INVALID_OPERATION);
+// An op's name as a template argument: the debug line that record_error writes names it.
+template <size_t kSize>
+struct Name {{
+  char text[kSize];
+  consteval Name(const char (&name)[kSize]) {{
+    for (size_t i = 0; i < kSize; ++i) text[i] = name[i];
+  }}
+}};
+
+template <Name kName, typename Result, typename... Arguments>
+Result refuse(Context& context, Arguments...) {{
+  record_error(context, GL_INVALID_OPERATION, kName.text);
   return Result();
 }}
 

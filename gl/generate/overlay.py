@@ -96,5 +96,5 @@ def bind_commands(operations, registry, exported):
     owners = {name: operation for operation in operations for name in operation.commands}
     for command in registry.values():
         owner = owners.get(command.alias)
-        if owner and command.name not in owners and command.name in exported:
+        if owner and command.name not in owners and command.name in exported and command.desktop:
             owner.commands[command.name] = owner.commands[command.alias]

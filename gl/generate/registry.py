@@ -34,10 +34,12 @@ class Command:
     return_type: str
     parameters: list = field(default_factory=list)
     alias: str = ""
+    desktop: bool = False  # of OpenGL, not of OpenGL ES only
 
 
 def tidy_type(text):
-    """Writes a C type the way the house does: 'const GLfloat*'."""
+    """Writes a C type the way the house does: 'const GLfloat*'. What is pointed to is GLvoid, as in the overlay."""
+    text = re.sub(r"\bvoid(?=\s*\*)", "GLvoid", text)
     return re.sub(r"\s*\*", "*", re.sub(r"\s+", " ", text)).strip()
 
 
@@ -67,8 +69,23 @@ def read_command(node):
     )
 
 
+def desktop_names(root):
+    """The commands some version or extension of OpenGL asks for."""
+    requirers = [node for node in root.findall("feature") if node.get("api") == "gl"]
+    requirers += [node for node in root.findall("extensions/extension") if "gl" in node.get("supported").split("|")]
+    return {
+        command.get("name")
+        for requirer in requirers
+        for require in requirer.findall("require")
+        if require.get("api", "gl") == "gl"
+        for command in require.findall("command")
+    }
+
+
 def read_registry(path):
-    """All commands of a Khronos registry file, by name."""
+    """All commands of gl.xml, by name."""
     root = ElementTree.parse(path).getroot()
-    commands = [read_command(node) for node in root.findall("commands/command")]
-    return {command.name: command for command in commands}
+    commands = {command.name: command for command in map(read_command, root.findall("commands/command"))}
+    for name in desktop_names(root):
+        commands[name].desktop = True
+    return commands
