@@ -35,6 +35,7 @@ struct Context {
 
   VisualConfig visual;
   Drawable* drawable = nullptr;  // null while not current
+  Drawable* read_drawable = nullptr;  // where pixels are read, when it is not `drawable` (glXMakeContextCurrent)
   bool was_current = false;      // the first make-current sets viewport and scissor to the drawable's size
   const OperationTable* table;   // what entry points call now: outside, or inside Begin/End
 
