@@ -72,7 +72,7 @@ struct TextureState {
   GLenum env_mode = GL_MODULATE;
   raster::Color env_color;               // in [0, 1]
   std::array<TextureImages, 2> proxies;  // 1D, 2D
-  std::atomic<uint64_t> revision{0};     // of the bindings and the environment
+  uint64_t revision = 0;                 // of the bindings and the environment
 };
 
 // Changes whenever current_texture_view or the environment may have, also by another context that shares.
