@@ -1,0 +1,71 @@
+// Which attributes a draw calls for: what does not change over the batch is not interpolated.
+#include <cstring>
+
+#include "raster/vertex/vertex_stage.h"
+
+namespace halfspace::raster {
+namespace {
+
+const unsigned char* element(const AttributeStream& stream, uint32_t i) {
+  return static_cast<const unsigned char*>(stream.data) + size_t(i) * stream.stride;
+}
+
+// Compares bits: two NaNs or zeros that differ only cost an interpolation.
+bool is_constant(const AttributeStream& stream, uint32_t count) {
+  if (!stream.data || stream.stride == 0) return true;
+  const size_t bytes = size_t(stream.size) * sizeof(float);
+  for (uint32_t i = 1; i < count; ++i) {
+    if (std::memcmp(element(stream, 0), element(stream, i), bytes) != 0) return false;
+  }
+  return true;
+}
+
+float clamp01(float v) {
+  if (!(v > 0)) return 0;  // NaN too
+  return v < 1 ? v : 1;
+}
+
+Color first_color(const AttributeStream& stream) {
+  if (!stream.data) return {1, 1, 1, 1};
+  float c[4] = {0, 0, 0, 1};
+  std::memcpy(c, stream.data, size_t(stream.size) * sizeof(float));
+  return {clamp01(c[0]), clamp01(c[1]), clamp01(c[2]), clamp01(c[3])};
+}
+
+bool has_projective_q(const AttributeStream& stream, uint32_t count) {
+  if (!stream.data || stream.size < 4) return false;
+  const uint32_t distinct = stream.stride == 0 ? 1 : count;
+  for (uint32_t i = 0; i < distinct; ++i) {
+    float q;
+    std::memcpy(&q, element(stream, i) + 3 * sizeof(float), sizeof q);
+    if (q != 1.0f) return true;
+  }
+  return false;
+}
+
+bool is_projective(const TextureUnitState& unit, const AttributeStream& stream, uint32_t count) {
+  if (unit.matrix_is_identity) return has_projective_q(stream, count);
+  const auto& m = unit.matrix;
+  const bool affine = m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
+  return !affine || has_projective_q(stream, count);
+}
+
+}  // namespace
+
+VertexLayout choose_layout(const DrawState& state, const VertexBatch& batch) {
+  VertexLayout layout;
+  if (batch.count == 0 || is_constant(batch.color, batch.count)) {
+    if (batch.count > 0) layout.constant_color = first_color(batch.color);
+  } else {
+    layout.color = layout.attribute_count;
+    layout.attribute_count += 4;
+  }
+  if (state.texture.view) {
+    layout.projective = is_projective(state.texture, batch.tex_coord, batch.count);
+    layout.tex_coord = layout.attribute_count;
+    layout.attribute_count += layout.projective ? 3 : 2;
+  }
+  return layout;
+}
+
+}  // namespace halfspace::raster

@@ -1,0 +1,55 @@
+// Between the vertex stage and its per-ISA kernels: raw pointers and numbers only, since a template or inline
+// function instantiated in per-ISA code might be the one the linker keeps for all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "raster/vertex/shaded_vertices.h"
+
+namespace halfspace::raster {
+
+struct StreamRef {
+  const unsigned char* data;  // never null
+  size_t stride;              // bytes
+  int size;                   // floats, 1..4
+};
+
+// Clip to window, with everything that does not change over a draw worked out once.
+//   x_fixed = floor(x / w * scale_x + 0.5) + offset_x   (16.8)
+//   depth   = z / w * depth_scale + depth_offset        ([0, 1])
+// Snapping the part that depends on the vertex, then adding an integer, makes a picture independent of where
+// the viewport lies, to the bit.
+struct WindowTransform {
+  double scale_x, scale_y;    // half the viewport, in 1/256 pixels
+  double offset_x, offset_y;  // its centre, in 1/256 pixels: integers
+  double depth_scale, depth_offset;
+  double depth_low, depth_high;  // the depth range, ordered
+  bool inside_guard;             // the whole viewport lies within the guard band
+};
+
+struct ShadeJob {
+  double m[16];  // clip_from_object, column-major
+  WindowTransform window;
+  double texture_matrix[16];
+  bool use_texture_matrix;
+  bool texture_projective;
+  StreamRef position, color, tex_coord;
+  int color_offset, tex_coord_offset;  // bytes from the start of a record; -1: not there
+  unsigned char* records;
+  size_t record_stride;
+  uint16_t* outcodes;
+  ClipVertex* clip;
+};
+
+// w below this is behind the eye for all purposes: 1/w times any finite float still is a finite float's
+// square.
+inline constexpr double kMinW = 1e-30;
+// Texture coordinates are bounded by this, so that no product with 1/w overflows a double.
+inline constexpr float kMaxTexCoord = 1e30f;
+
+struct VertexKernels {
+  void (*shade)(const ShadeJob& job, uint32_t first, uint32_t count);
+};
+
+}  // namespace halfspace::raster
