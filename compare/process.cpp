@@ -1,0 +1,182 @@
+#include "compare/process.h"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+namespace halfspace::compare {
+namespace {
+
+std::atomic<pid_t> running_child{0};
+
+void hand_on(int signal_number) {
+  const pid_t child = running_child.load();
+  if (child > 0) kill(child, signal_number);
+}
+
+// While it lives, SIGINT and SIGTERM go to the child instead of ending us, so that captured frames are not
+// lost.
+class HandOnSignals {
+ public:
+  HandOnSignals() {
+    struct sigaction action {};
+    action.sa_handler = hand_on;
+    for (size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &before_[i]);
+  }
+  ~HandOnSignals() {
+    for (size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  }
+  HandOnSignals(const HandOnSignals&) = delete;
+  HandOnSignals& operator=(const HandOnSignals&) = delete;
+
+ private:
+  static constexpr std::array<int, 2> kSignals{SIGINT, SIGTERM};
+  std::array<struct sigaction, 2> before_{};
+};
+
+bool overrides(const std::vector<EnvironmentVariable>& changes, const char* entry) {
+  for (const auto& [name, value] : changes)
+    if (std::strncmp(entry, name.c_str(), name.size()) == 0 && entry[name.size()] == '=') return true;
+  return false;
+}
+
+std::vector<std::string> merged_environment(const std::vector<EnvironmentVariable>& changes) {
+  std::vector<std::string> merged;
+  for (char** entry = environ; *entry != nullptr; ++entry)
+    if (!overrides(changes, *entry)) merged.emplace_back(*entry);
+  for (const auto& [name, value] : changes)
+    if (!value.empty()) merged.push_back(name + "=" + value);
+  return merged;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& strings) {
+  std::vector<char*> list;
+  for (std::string& text : strings) list.push_back(text.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+// All that exec needs, made before the fork: between fork and exec nothing may allocate.
+struct Prepared {
+  explicit Prepared(const ChildCommand& command)
+      : arguments(command.arguments),
+        environment(merged_environment(command.environment)),
+        argument_list(pointers(arguments)),
+        environment_list(pointers(environment)),
+        output(command.output.string()),
+        pinned(!command.cores.empty()) {
+    CPU_ZERO(&cores);
+    for (int core : command.cores) CPU_SET(static_cast<unsigned>(core), &cores);
+  }
+
+  // Returns the errno when it fails.
+  int exec() const {
+    if (pinned && sched_setaffinity(0, sizeof cores, &cores) != 0) return errno;
+    if (!output.empty()) {
+      const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+      if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) return errno;
+    }
+    execvpe(argument_list[0], argument_list.data(), environment_list.data());
+    return errno;
+  }
+
+  std::vector<std::string> arguments, environment;
+  std::vector<char*> argument_list, environment_list;
+  std::string output;
+  bool pinned;
+  cpu_set_t cores{};
+};
+
+StartError start_error(const ChildCommand& command, int number) {
+  return {command.arguments.front() + ": cannot be started: " + std::strerror(number), number};
+}
+
+// The child writes its errno here when exec fails; a successful exec closes it.
+class ErrorPipe {
+ public:
+  ErrorPipe() {
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw StartError("no pipe to be had", errno);
+  }
+  ~ErrorPipe() {
+    close_write();
+    close(ends_[0]);
+  }
+  ErrorPipe(const ErrorPipe&) = delete;
+  ErrorPipe& operator=(const ErrorPipe&) = delete;
+
+  void send(int number) const { (void)!write(ends_[1], &number, sizeof number); }
+  void close_write() {
+    if (ends_[1] >= 0) close(ends_[1]);
+    ends_[1] = -1;
+  }
+  int receive() {
+    close_write();
+    int number = 0;
+    ssize_t got = 0;
+    do got = read(ends_[0], &number, sizeof number);
+    while (got < 0 && errno == EINTR);
+    return got == sizeof number ? number : 0;
+  }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+};
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+}  // namespace
+
+ChildResult run_child(const ChildCommand& command) {
+  const Prepared prepared(command);
+  ErrorPipe error_pipe;
+  const auto start = std::chrono::steady_clock::now();
+  const pid_t child = fork();
+  if (child < 0) throw start_error(command, errno);
+  if (child == 0) {
+    error_pipe.send(prepared.exec());
+    _exit(127);
+  }
+  running_child = child;
+  const HandOnSignals hand_on_signals;
+  const int exec_error = error_pipe.receive();
+  const int status = wait_for(child);
+  running_child = 0;
+  if (exec_error != 0) throw start_error(command, exec_error);
+  ChildResult result;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+  result.exit_code = result.signal != 0 ? 128 + result.signal : WEXITSTATUS(status);
+  return result;
+}
+
+void become(const ChildCommand& command) {
+  const Prepared prepared(command);
+  throw start_error(command, prepared.exec());
+}
+
+int shell_status(const StartError& error) { return error.error_number == ENOENT ? 127 : 126; }
+
+std::vector<int> available_cores() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  std::vector<int> cores;
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    for (int core = 0; core < CPU_SETSIZE; ++core)
+      if (CPU_ISSET(static_cast<unsigned>(core), &set)) cores.push_back(core);
+  return cores;
+}
+
+}  // namespace halfspace::compare

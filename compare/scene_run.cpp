@@ -1,0 +1,128 @@
+#include "compare/scene_run.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "compare/libraries.h"
+
+namespace halfspace::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "ref_app_osmesa";
+constexpr const char* kOurLibrary = "libOSMesa.so.8";
+
+std::vector<EnvironmentVariable> environment_of(const SceneJob& job) {
+  if (job.renderer == Renderer::ours) {
+    std::vector<EnvironmentVariable> ours{library_path_with(library_folder(kOurLibrary, job.library))};
+    if (job.threads > 0) ours.emplace_back("HALFSPACE_THREADS", std::to_string(job.threads));
+    return ours;
+  }
+  std::vector<EnvironmentVariable> theirs{{"GALLIUM_DRIVER", "llvmpipe"}};
+  // llvmpipe counts helpers beside the calling thread: none of them is one thread.
+  if (job.threads > 0)
+    theirs.emplace_back("LP_NUM_THREADS", std::to_string(job.threads == 1 ? 0 : job.threads));
+  theirs.emplace_back("GALLIVM_PERF", job.renderer == Renderer::osmesa_float ? "no_aos_sampling" : "");
+  return theirs;
+}
+
+ChildCommand command_of(const SceneJob& job, const fs::path& json) {
+  ChildCommand command;
+  command.arguments = {house_program(kProgram).string(),
+                       "--backend",
+                       "osmesa",
+                       "--size",
+                       std::to_string(job.width) + "x" + std::to_string(job.height),
+                       "--frames",
+                       std::to_string(job.frames),
+                       "--format",
+                       job.format,
+                       "--out",
+                       job.out.string(),
+                       "--json",
+                       json.string()};
+  for (int scene : job.scenes) {
+    command.arguments.push_back("--scene");
+    command.arguments.push_back(std::to_string(scene));
+  }
+  command.environment = environment_of(job);
+  command.cores = job.cores;
+  command.output = job.out / "log.txt";
+  return command;
+}
+
+std::string whole_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void require_renderer(const SceneJob& job, const SceneResult& result) {
+  const bool is_ours = result.renderer.starts_with("Halfspace");
+  if (is_ours == (job.renderer == Renderer::ours)) return;
+  throw std::runtime_error(std::string("asked for ") + renderer_name(job.renderer) + ", but \"" +
+                           result.renderer + "\" drew; is an LD_LIBRARY_PATH or LD_PRELOAD in the way?");
+}
+
+SceneTime scene_time(const nlohmann::json& entry, const fs::path& folder) {
+  SceneTime time;
+  time.scene = entry.at("scene").get<int>();
+  time.name = entry.value("name", "");
+  time.first_ms = entry.at("first_ms").get<double>();
+  time.median_ms = entry.at("median_ms").get<double>();
+  time.frames_ms = entry.value("frames_ms", std::vector<double>{});
+  const fs::path picture = entry.at("picture").get<std::string>();
+  time.picture = picture.is_absolute() || fs::exists(picture) ? picture : folder / picture;
+  return time;
+}
+
+}  // namespace
+
+const char* renderer_name(Renderer renderer) {
+  switch (renderer) {
+    case Renderer::ours:
+      return "Halfspace";
+    case Renderer::osmesa:
+      return "OSMesa";
+    case Renderer::osmesa_float:
+      return "OSMesa, float filter";
+  }
+  return "";
+}
+
+SceneResult run_scenes(const SceneJob& job) {
+  fs::create_directories(job.out);
+  const fs::path json = job.out / "result.json";
+  fs::remove(json);
+  const ChildCommand command = command_of(job, json);
+  const ChildResult child = run_child(command);
+  if (child.exit_code != 0)
+    throw std::runtime_error(std::string(renderer_name(job.renderer)) + ": " + kProgram +
+                             " ended with status " + std::to_string(child.exit_code) + ":\n" +
+                             whole_file(command.output));
+  SceneResult result = read_scene_result(json);
+  result.process_seconds = child.seconds;
+  require_renderer(job, result);
+  return result;
+}
+
+SceneResult read_scene_result(const fs::path& path) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(whole_file(path));
+    SceneResult result;
+    result.renderer = json.at("renderer").get<std::string>();
+    result.version = json.at("version").get<std::string>();
+    result.first_picture_ms = json.at("first_picture_ms").get<double>();
+    result.peak_kib = json.at("peak_rss_kib").get<long>();
+    for (const nlohmann::json& entry : json.at("scenes"))
+      result.scenes.push_back(scene_time(entry, path.parent_path()));
+    return result;
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(path.string() + ": is not what ref_app --json writes: " + error.what());
+  }
+}
+
+}  // namespace halfspace::compare

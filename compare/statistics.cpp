@@ -1,0 +1,28 @@
+#include "compare/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfspace::compare {
+
+double quantile(const std::vector<double>& sorted, double q) {
+  const double position = q * static_cast<double>(sorted.size() - 1);
+  const size_t below = static_cast<size_t>(std::floor(position));
+  const size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], position - static_cast<double>(below));
+}
+
+Summary summarize(std::vector<double> values) {
+  Summary summary;
+  if (values.empty()) return summary;
+  std::sort(values.begin(), values.end());
+  summary.median = quantile(values, 0.5);
+  summary.lowest = values.front();
+  summary.highest = values.back();
+  summary.count = static_cast<int>(values.size());
+  if (summary.median != 0)
+    summary.spread = (quantile(values, 0.75) - quantile(values, 0.25)) / 2 / summary.median;
+  return summary;
+}
+
+}  // namespace halfspace::compare
