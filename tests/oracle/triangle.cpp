@@ -1,0 +1,25 @@
+#include "tests/oracle/triangle.h"
+
+namespace halfspace::oracle {
+
+Triangle::Triangle(const raster::Viewport& viewport, const std::array<ClipPoint, 3>& corners) {
+  using Real = long double;
+  const auto real = [](double v) { return static_cast<Real>(v); };
+  for (size_t i = 0; i < 3; ++i) {
+    const ClipPoint& c = corners[i];
+    const Real w = real(c.w);
+    corners_[i].x = snap(viewport.x + (real(c.x) / w + 1) * viewport.width / 2);
+    corners_[i].y = snap(viewport.y + (real(c.y) / w + 1) * viewport.height / 2);
+    const Real near = real(viewport.depth_near), far = real(viewport.depth_far);
+    depth_[i] = (far - near) / 2 * (real(c.z) / w) + (near + far) / 2;
+    inv_w_[i] = 1 / w;
+  }
+}
+
+Affine<long double> Triangle::attribute(const std::array<long double, 3>& values, int px, int py) const {
+  std::array<long double, 3> over_w;
+  for (size_t i = 0; i < 3; ++i) over_w[i] = values[i] * inv_w_[i];
+  return quotient(affine(corners_, over_w, px, py), affine(corners_, inv_w_, px, py));
+}
+
+}  // namespace halfspace::oracle

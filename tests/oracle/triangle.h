@@ -1,0 +1,32 @@
+// A triangle given in clip coordinates, as the specification draws it when nothing of it has to be clipped.
+#pragma once
+
+#include <array>
+
+#include "raster/api/draw_state.h"
+#include "tests/oracle/interpolation.h"
+
+namespace halfspace::oracle {
+
+struct ClipPoint {
+  double x = 0, y = 0, z = 0, w = 1;
+};
+
+class Triangle {
+ public:
+  // All w > 0. Window coordinates by spec 2.10.1, then snapped; depth and 1/w belong to the snapped corners.
+  Triangle(const raster::Viewport& viewport, const std::array<ClipPoint, 3>& corners);
+
+  const SnappedTriangle& corners() const { return corners_; }
+  bool covers(int px, int py) const { return oracle::covers(corners_, px, py); }
+  // Window depth in [0, 1].
+  long double depth(int px, int py) const { return affine(corners_, depth_, px, py).value; }
+  // A perspective-correct attribute with its window derivatives.
+  Affine<long double> attribute(const std::array<long double, 3>& values, int px, int py) const;
+
+ private:
+  SnappedTriangle corners_;
+  std::array<long double, 3> depth_, inv_w_;
+};
+
+}  // namespace halfspace::oracle
