@@ -1,0 +1,43 @@
+// glClear (spec 4.2.3).
+#include "state/context.h"
+#include "state/operations.gen.h"
+#include "state/out_of_memory.h"
+
+namespace halfspace::state {
+namespace {
+
+constexpr GLbitfield kClearable =
+    GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT;
+
+// Bits of buffers that the visual lacks have no effect.
+raster::ClearCommand clear_command(const Context& context, GLbitfield mask) {
+  const ColorBufferState& color = context.color_buffer;
+  const DepthBufferState& depth = context.depth_buffer;
+  raster::ClearCommand command;
+  command.color = (mask & GL_COLOR_BUFFER_BIT) != 0 && !color.mask.none();
+  command.color_value = color.clear_color;
+  command.color_mask = color.mask;
+  if (context.visual.alpha_bits == 0) command.color_value.a = 1;  // such a buffer reads alpha 1
+  command.depth = (mask & GL_DEPTH_BUFFER_BIT) != 0 && depth.write && context.visual.depth_bits > 0;
+  command.depth_value = depth.clear_value;
+  command.depth_write = depth.write;
+  command.scissor_test = context.scissor.test;
+  command.scissor = context.scissor.rect();
+  return command;
+}
+
+}  // namespace
+
+namespace op {
+
+void clear(Context& context, GLbitfield mask) {
+  if ((mask & ~kClearable) != 0) return record_error(context, GL_INVALID_VALUE);
+  const raster::ClearCommand command = clear_command(context, mask);
+  if (!command.color && !command.depth) return;
+  guard_memory(context, [&] {
+    draw_to_buffers(context, context.device, [&](raster::Device& device) { device.clear(command); });
+  });
+}
+
+}  // namespace op
+}  // namespace halfspace::state
