@@ -8,8 +8,9 @@
 
 namespace halfspace::gl {
 
-// OpenGL 1.5 table 2.9: unsigned c / (2^n - 1), signed (2c + 1) / (2^n - 1). Operands up to 16 bits are exact in float,
-// so one division rounds once; 32 bits are divided in double. The largest integer becomes exactly 1.
+// OpenGL 1.5 table 2.9: unsigned c / (2^n - 1), signed (2c + 1) / (2^n - 1). Operands up to 16 bits are exact
+// in float, so one division rounds once; 32 bits are divided in double. The largest integer becomes
+// exactly 1.
 inline GLfloat normalized(GLubyte c) { return static_cast<GLfloat>(c) / 255.0f; }
 inline GLfloat normalized(GLushort c) { return static_cast<GLfloat>(c) / 65535.0f; }
 inline GLfloat normalized(GLbyte c) { return static_cast<GLfloat>(2 * c + 1) / 255.0f; }
@@ -25,15 +26,15 @@ std::array<To, kCount> converted(const From* v) {
   return result;
 }
 
-// The scalar forms take no pname that stands for a vector (spec 2.14.2, 3.8.4, 3.8.13): such a name becomes 0, which
-// no operation knows, and is refused like any other unknown name.
+// The scalar forms take no pname that stands for a vector (spec 2.14.2, 3.8.4, 3.8.13): such a name becomes
+// 0, which no operation knows, and is refused like any other unknown name.
 template <GLenum... kVectorNames>
 GLenum scalar_pname(GLenum pname) {
   return ((pname == kVectorNames) || ...) ? GLenum{0} : pname;
 }
 
-// glMaterialiv: colours are normalised, shininess and colour indices are not (spec 2.14.2). Reads as many values as
-// the pname has, and none for a pname that is none.
+// glMaterialiv: colours are normalised, shininess and colour indices are not (spec 2.14.2). Reads as many
+// values as the pname has, and none for a pname that is none.
 inline std::array<GLfloat, 4> material_floats(GLenum pname, const GLint* params) {
   std::array<GLfloat, 4> v{};
   switch (pname) {

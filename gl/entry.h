@@ -8,7 +8,8 @@
 #include "state/context.h"
 #include "state/operations.gen.h"
 
-// UBSan: without a current context the reference is to nothing, and the operations of that table never look at it.
+// UBSan: without a current context the reference is to nothing, and the operations of that table never look
+// at it.
 #ifdef __clang__
 #define HALFSPACE_NO_NULL_CHECK __attribute__((no_sanitize("null")))
 #else
@@ -18,8 +19,8 @@
 #define HALFSPACE_EXPORT __attribute__((visibility("default")))
 #define HALFSPACE_ENTRY HALFSPACE_EXPORT HALFSPACE_NO_NULL_CHECK
 
-// Calls an operation of the calling thread's table. One thread-local variable holds table and context; both are read
-// once, and the call is a tail call.
-#define HALFSPACE_CALL(operation, ...)           \
+// Calls an operation of the calling thread's table. One thread-local variable holds table and context; both
+// are read once, and the call is a tail call.
+#define HALFSPACE_CALL(operation, ...)                \
   halfspace::state::current_binding.table->operation( \
       *halfspace::state::current_binding.context __VA_OPT__(, ) __VA_ARGS__)

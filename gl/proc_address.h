@@ -16,8 +16,8 @@ struct ProcEntry {
 extern const ProcEntry kProcTable[];
 extern const size_t kProcCount;
 
-// The address of a GL command; null for a name that is not implemented, also when it is exported, so that a program
-// which asks can do without.
+// The address of a GL command; null for a name that is not implemented, also when it is exported, so that a
+// program which asks can do without.
 Proc get_proc_address(const char* name);
 
 }  // namespace halfspace::gl

@@ -1,8 +1,9 @@
-// Names the ABI has and we do not implement yet. Programs are linked against them, often BIND_NOW, without ever calling
-// them; one that does call is told so, once a name. Compiled once a library, with its list in HALFSPACE_STUB_LIST.
+// Names the ABI has and we do not implement yet. Programs are linked against them, often BIND_NOW, without
+// ever calling them; one that does call is told so, once a name. Compiled once a library, with its list in
+// HALFSPACE_STUB_LIST.
 //
-// No GL header here: a stub has no parameters, and the caller's are left alone (the caller removes them in every C ABI
-// that Linux has). The result is 0 in every integer type and a null pointer.
+// No GL header here: a stub has no parameters, and the caller's are left alone (the caller removes them in
+// every C ABI that Linux has). The result is 0 in every integer type and a null pointer.
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
@@ -21,7 +22,8 @@ enum StubIndex : uint32_t {
   kStubCount
 };
 
-// One after the other, each with its zero: a pointer a name would be a relocation a name when a program starts.
+// One after the other, each with its zero: a pointer a name would be a relocation a name when a program
+// starts.
 constexpr char kNames[] =
 #define HALFSPACE_STUB(name) #name "\0"
 #define HALFSPACE_FLOAT_STUB(name) #name "\0"

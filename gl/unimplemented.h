@@ -3,8 +3,8 @@
 
 namespace halfspace::gl {
 
-// Records GL_INVALID_OPERATION in the calling thread's context, if it has one and `name` is a GL command; with
-// `report`, says on stderr which name it was.
+// Records GL_INVALID_OPERATION in the calling thread's context, if it has one and `name` is a GL command;
+// with `report`, says on stderr which name it was.
 void call_of_unimplemented(const char* name, bool report);
 
 }  // namespace halfspace::gl
