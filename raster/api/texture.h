@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "raster/api/types.h"
@@ -50,8 +52,13 @@ class Texture {
   // alpha: R = G = B = 0; intensity: R = G = B = A = I).
   void define_level(int level, int width, int height, int border, BaseFormat base_format, const uint8_t* rgba,
                     size_t row_stride);
+  // The same from rows that are made one by one: rows(n) is called once for each n from 0 up and returns row n,
+  // which has to last until the next call. It must not throw.
+  using RowSource = std::function<const uint8_t*(int row)>;
+  void define_level(int level, int width, int height, int border, BaseFormat base_format, const RowSource& rows);
   // Overwrites the texels [x, x+w) x [y, y+h); coordinates may reach from -border to size+border.
   void update_level(int level, int x, int y, int w, int h, const uint8_t* rgba, size_t row_stride);
+  void update_level(int level, int x, int y, int w, int h, const RowSource& rows);
   // Reads a level back as define_level took it, border included.
   void read_level(int level, uint8_t* rgba, size_t row_stride) const;
   void remove_level(int level);

@@ -195,6 +195,12 @@ Texture::~Texture() = default;
 
 void Texture::define_level(int level, int width, int height, int border, BaseFormat base_format,
                            const uint8_t* rgba, size_t row_stride) {
+  const RowSource rows = [&](int row) { return rgba + size_t(row) * row_stride; };
+  define_level(level, width, height, border, base_format, rgba ? rows : nullptr);
+}
+
+void Texture::define_level(int level, int width, int height, int border, BaseFormat base_format,
+                           const RowSource& rows) {
   assert(level >= 0 && level < kMaxTextureLevels);
   if (width <= 0 || height <= 0) return remove_level(level);
   std::shared_ptr<TextureLevel>& slot = impl_->levels[size_t(level)];
@@ -205,17 +211,21 @@ void Texture::define_level(int level, int width, int height, int border, BaseFor
   fresh->base_format = base_format;
   fresh->skirt_valid = false;
   fresh->image_opaque = true;
-  if (!rgba) {
+  if (!rows) {
     zero_texels(*fresh);
   } else {
     for (int y = -border; y < height + border; ++y) {
-      write_row(*fresh, -border, y, width + 2 * border, rgba + size_t(y + border) * row_stride);
+      write_row(*fresh, -border, y, width + 2 * border, rows(y + border));
     }
   }
   slot = std::move(fresh);
 }
 
 void Texture::update_level(int level, int x, int y, int w, int h, const uint8_t* rgba, size_t row_stride) {
+  update_level(level, x, y, w, h, [&](int row) { return rgba + size_t(row) * row_stride; });
+}
+
+void Texture::update_level(int level, int x, int y, int w, int h, const RowSource& rows) {
   TextureLevel* old = impl_->find(level);
   if (!old || w <= 0 || h <= 0) return;
   assert(x >= -old->border && x + w <= old->width + old->border);
@@ -224,7 +234,9 @@ void Texture::update_level(int level, int x, int y, int w, int h, const uint8_t*
   impl_->cached_view.reset();
   if (!Impl::is_sole(slot)) slot = clone_level(*old);
   slot->skirt_valid = false;
-  for (int row = 0; row < h; ++row) write_row(*slot, x, y + row, w, rgba + size_t(row) * row_stride);
+  const bool whole = x <= 0 && y <= 0 && x + w >= slot->width && y + h >= slot->height;
+  slot->image_opaque = slot->image_opaque || whole;  // write_row takes it back
+  for (int row = 0; row < h; ++row) write_row(*slot, x, y + row, w, rows(row));
 }
 
 void Texture::read_level(int level, uint8_t* rgba, size_t row_stride) const {
