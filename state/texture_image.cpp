@@ -1,5 +1,4 @@
 // glTexImage2D, glTexSubImage2D (spec 3.8.1, 3.8.2).
-#include <algorithm>
 #include <vector>
 
 #include "state/context.h"
@@ -11,67 +10,64 @@
 namespace halfspace::state {
 namespace {
 
-// Texels converted at a time: an image is never held twice.
-constexpr size_t kStripTexels = 1 << 16;
-
 struct ClientImage {
   PixelFormat format;
   const PixelStore& store;
   const void* pixels;
 };
 
-// A rectangle of a level, in the coordinates of raster::Texture: the border starts at -border.
-struct TexelRect {
-  int x, y;
-  GLsizei width, height;
+// The rows of an image in client memory as raster::Texture wants them: converted one at a time, or as they
+// lie when nothing is to be converted. May throw std::bad_alloc when made, never later.
+class ImageRows {
+ public:
+  ImageRows(const ClientImage& image, raster::BaseFormat base, GLsizei width)
+      : image_(image), base_(base), width_(size_t(width)) {
+    const ClientLayout layout = client_layout(image.store, width, image.format.pixel_bytes);
+    first_ = static_cast<const std::byte*>(image.pixels) + layout.offset;
+    row_bytes_ = layout.row_bytes;
+    if (base != raster::BaseFormat::rgba || !is_plain_rgba8(image.format, image.store.swap_bytes)) {
+      converted_.resize(width_ * 4);
+    }
+  }
+
+  const uint8_t* row(int y) {
+    const std::byte* source = first_ + size_t(y) * row_bytes_;
+    if (converted_.empty()) return reinterpret_cast<const uint8_t*>(source);
+    decode_pixels(image_.format, image_.store.swap_bytes, source, width_, converted_.data());
+    reduce_to_base(base_, converted_.data(), width_);
+    return converted_.data();
+  }
+
+  raster::Texture::RowSource source() {
+    return [this](int y) { return row(y); };
+  }
+
+ private:
+  const ClientImage& image_;
+  raster::BaseFormat base_;
+  size_t width_;
+  const std::byte* first_;
+  size_t row_bytes_;
+  std::vector<uint8_t> converted_;  // empty: nothing to convert
 };
 
-// Writes a rectangle of a defined level, strip by strip. May throw std::bad_alloc before the first texel.
-void write_texels(raster::Texture& storage, int level, raster::BaseFormat base, const TexelRect& rect,
-                  const ClientImage& image) {
-  const ClientLayout layout = client_layout(image.store, rect.width, image.format.pixel_bytes);
-  const std::byte* row = static_cast<const std::byte*>(image.pixels) + layout.offset;
-  const size_t row_texels = size_t(rect.width);
-  const GLsizei strip_rows = GLsizei(std::clamp<size_t>(kStripTexels / row_texels, 1, size_t(rect.height)));
-  std::vector<uint8_t> strip(row_texels * 4 * size_t(strip_rows));
-  for (GLsizei y = 0; y < rect.height; y += strip_rows) {
-    const GLsizei rows = std::min(strip_rows, rect.height - y);
-    for (GLsizei i = 0; i < rows; ++i, row += layout.row_bytes) {
-      decode_pixels(image.format, image.store.swap_bytes, row, row_texels,
-                    &strip[row_texels * 4 * size_t(i)]);
-    }
-    reduce_to_base(base, strip.data(), row_texels * size_t(rows));
-    storage.update_level(level, rect.x, rect.y + y, rect.width, rows, strip.data(), row_texels * 4);
-  }
-}
-
-// Client memory that is already what raster::Texture wants: nothing is copied twice.
-bool is_stored_form(raster::BaseFormat base, const ClientImage& image) {
-  return base == raster::BaseFormat::rgba && is_plain_rgba8(image.format, image.store.swap_bytes);
-}
-
-const uint8_t* first_byte(const ClientImage& image, const ClientLayout& layout) {
-  return static_cast<const uint8_t*>(image.pixels) + layout.offset;
+void drop_view(TextureObject& object) {
+  object.view.reset();  // or the texels would be copied on write for its sake
+  object.view_revision = ~uint64_t{0};
 }
 
 void define_image(TextureObject& object, int level, const TextureImage& info, const ClientImage& image) {
-  raster::Texture& storage = object.storage;
-  object.view.reset();  // or the texels would be copied on write for its sake
-  object.view_revision = ~uint64_t{0};
-  if (info.empty()) {
-    storage.remove_level(level);
-    object.images[size_t(level)] = info;
-    return;
-  }
   const int width = info.width - 2 * info.border, height = info.height - 2 * info.border;
-  const ClientLayout layout = client_layout(image.store, info.width, image.format.pixel_bytes);
-  const bool direct = image.pixels != nullptr && is_stored_form(info.base_format, image);
-  storage.define_level(level, width, height, info.border, info.base_format,
-                       direct ? first_byte(image, layout) : nullptr, layout.row_bytes);
+  drop_view(object);
+  if (info.empty()) {
+    object.storage.remove_level(level);
+  } else if (image.pixels == nullptr) {
+    object.storage.define_level(level, width, height, info.border, info.base_format, nullptr);
+  } else {
+    ImageRows rows(image, info.base_format, info.width);
+    object.storage.define_level(level, width, height, info.border, info.base_format, rows.source());
+  }
   object.images[size_t(level)] = info;
-  if (direct || image.pixels == nullptr) return;
-  write_texels(storage, level, info.base_format, {-info.border, -info.border, info.width, info.height},
-               image);
 }
 
 bool is_power_of_two(GLsizei v) { return v > 0 && (v & (v - 1)) == 0; }
@@ -141,8 +137,8 @@ void tex_image_2d(Context& context, GLenum target, GLint level, GLint internal_f
   TextureObject& object = *context.texture.bound_2d;
   guard_memory(context, [&] {
     const std::lock_guard lock(object.mutex);
-    touch_texture(context, object);
     define_image(object, level, info, {source, context.pixel_store.unpack, pixels});
+    touch_texture(context, object);
   });
 }
 
@@ -164,15 +160,10 @@ void tex_sub_image_2d(Context& context, GLenum target, GLint level, GLint x, GLi
   if (width == 0 || height == 0 || pixels == nullptr) return;
   guard_memory(context, [&] {
     const ClientImage image{source, context.pixel_store.unpack, pixels};
+    ImageRows rows(image, info.base_format, width);
+    drop_view(object);
+    object.storage.update_level(level, x, y, width, height, rows.source());
     touch_texture(context, object);
-    object.view.reset();
-    object.view_revision = ~uint64_t{0};
-    if (is_stored_form(info.base_format, image)) {
-      const ClientLayout layout = client_layout(image.store, width, source.pixel_bytes);
-      object.storage.update_level(level, x, y, width, height, first_byte(image, layout), layout.row_bytes);
-    } else {
-      write_texels(object.storage, level, info.base_format, {x, y, width, height}, image);
-    }
   });
 }
 
