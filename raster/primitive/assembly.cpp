@@ -1,0 +1,277 @@
+#include "raster/primitive/assembly.h"
+
+#include "raster/primitive/clip.h"
+#include "raster/primitive/window_box.h"
+
+namespace halfspace::raster {
+
+uint32_t primitive_count(Primitive mode, uint32_t n) {
+  switch (mode) {
+    case Primitive::points:
+      return n;
+    case Primitive::lines:
+      return n / 2;
+    case Primitive::line_loop:
+      return n < 2 ? 0 : n;
+    case Primitive::line_strip:
+      return n < 2 ? 0 : n - 1;
+    case Primitive::triangles:
+      return n / 3;
+    case Primitive::triangle_strip:
+    case Primitive::triangle_fan:
+    case Primitive::polygon:
+      return n < 3 ? 0 : n - 2;
+    case Primitive::quads:
+      return n / 4 * 2;
+    case Primitive::quad_strip:
+      return n < 4 ? 0 : (n - 2) / 2 * 2;
+  }
+  return 0;
+}
+
+namespace {
+
+struct Corners {
+  uint32_t v[3];  // places in the draw's list of vertices
+};
+
+// Which places of the list make primitive k, and which corner provokes (spec table 2.12: the last vertex of
+// the primitive, but a polygon's first). Quads are split along the diagonal that ends in their last vertex.
+struct ListTriangles {
+  static constexpr uint8_t kProvoking = 2;
+  static Corners at(uint32_t k) { return {{3 * k, 3 * k + 1, 3 * k + 2}}; }
+};
+struct StripTriangles {
+  static constexpr uint8_t kProvoking = 2;
+  static Corners at(uint32_t k) { return {{k + (k & 1), k + 1 - (k & 1), k + 2}}; }
+};
+struct FanTriangles {
+  static constexpr uint8_t kProvoking = 2;
+  static Corners at(uint32_t k) { return {{0, k + 1, k + 2}}; }
+};
+struct PolygonTriangles {
+  static constexpr uint8_t kProvoking = 0;
+  static Corners at(uint32_t k) { return {{0, k + 1, k + 2}}; }
+};
+struct QuadTriangles {
+  static constexpr uint8_t kProvoking = 2;
+  static Corners at(uint32_t k) {
+    const uint32_t q = k / 2 * 4;
+    return k & 1 ? Corners{{q + 1, q + 2, q + 3}} : Corners{{q, q + 1, q + 3}};
+  }
+};
+// Quad i has the corners 2i, 2i + 1, 2i + 3, 2i + 2 in turn.
+struct QuadStripTriangles {
+  static constexpr uint8_t kProvoking = 2;
+  static Corners at(uint32_t k) {
+    const uint32_t q = k / 2 * 2;
+    return k & 1 ? Corners{{q, q + 1, q + 3}} : Corners{{q + 2, q, q + 3}};
+  }
+};
+
+class Assembler {
+ public:
+  Assembler(const DrawRecord& draw, const uint32_t* indices, uint32_t index_count, Segment& segment)
+      : segment_(segment),
+        indices_(indices),
+        index_count_(index_count),
+        records_(draw.vertices.records),
+        stride_(draw.vertices.layout.stride()),
+        outcodes_(draw.vertices.outcodes.data()),
+        bounds_(draw.bounds),
+        raster_(draw.state->raster),
+        clipper_(draw) {}
+
+  template <class Pattern>
+  void triangles(uint32_t first, uint32_t count) {
+    segment_.triangles_in += count;
+    for (uint32_t k = first; k < first + count; ++k) {
+      const Corners at = Pattern::at(k);
+      triangle({{vertex(at.v[0]), vertex(at.v[1]), vertex(at.v[2])}}, Pattern::kProvoking);
+    }
+  }
+
+  void lines(Primitive mode, uint32_t first, uint32_t count) {
+    for (uint32_t k = first; k < first + count; ++k) {
+      if (mode == Primitive::lines) {
+        line(vertex(2 * k), vertex(2 * k + 1));
+      } else {
+        line(vertex(k), vertex(k + 1 < index_count_ ? k + 1 : 0));
+      }
+    }
+  }
+
+  void points(uint32_t first, uint32_t count) {
+    for (uint32_t k = first; k < first + count; ++k) point(vertex(k));
+  }
+
+ private:
+  uint32_t vertex(uint32_t place) const { return indices_ ? indices_[place] : place; }
+  const VertexHead& head(uint32_t i) const {
+    return *reinterpret_cast<const VertexHead*>(records_ + size_t{i} * stride_);
+  }
+
+  uint32_t append(const PrimitiveRef& ref) {
+    segment_.primitives.push_back(ref);
+    return uint32_t(segment_.primitives.size() - 1);
+  }
+
+  bool is_culled(bool back_facing) const { return back_facing ? raster_.cull_back : raster_.cull_front; }
+
+  void triangle(const Corners& c, uint8_t provoking) {
+    const unsigned o0 = outcodes_[c.v[0]], o1 = outcodes_[c.v[1]], o2 = outcodes_[c.v[2]];
+    const unsigned any = o0 | o1 | o2;
+    if (any != 0) {
+      if ((o0 & o1 & o2) != 0 || (any & kOutNotFinite)) {
+        ++segment_.culled;
+        return;
+      }
+      if (any & kOutCutMask) return cut_triangle(c, any, provoking);
+    }
+    const VertexHead &a = head(c.v[0]), &b = head(c.v[1]), &d = head(c.v[2]);
+    const int32_t x[3] = {a.x, b.x, d.x}, y[3] = {a.y, b.y, d.y};
+    const int64_t area = int64_t{x[1] - x[0]} * (y[2] - y[0]) - int64_t{x[2] - x[0]} * (y[1] - y[0]);
+    const bool back = (area > 0) != raster_.front_is_ccw;
+    const Rect box = triangle_box(x, y);
+    if (area == 0 || is_culled(back) || box.empty()) {
+      ++segment_.culled;
+      return;
+    }
+    bin(x, y, box, append({{c.v[0], c.v[1], c.v[2]}, PrimitiveKind::triangle, false, back, provoking}));
+  }
+
+  Rect triangle_box(const int32_t x[3], const int32_t y[3]) const {
+    return pixel_box(std::min(std::min(x[0], x[1]), x[2]), std::min(std::min(y[0], y[1]), y[2]),
+                     std::max(std::max(x[0], x[1]), x[2]), std::max(std::max(y[0], y[1]), y[2]), bounds_);
+  }
+
+  void bin(const int32_t x[3], const int32_t y[3], const Rect& box, uint32_t primitive) {
+    const TileBox tiles = tile_box(box);
+    if (tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1) {
+      push_to_bin(segment_, size_t(tiles.y0) * size_t(segment_.tiles_x) + size_t(tiles.x0), primitive);
+    } else {
+      bin_triangle(segment_, tiles, x, y, primitive);
+    }
+  }
+
+  void cut_triangle(const Corners& c, unsigned any, uint8_t provoking) {
+    ++segment_.clipped;
+    Clipper::Polygon polygon;
+    clipper_.clip_triangle(c.v, any, polygon);
+    const bool back = (polygon.area > 0) != raster_.front_is_ccw;
+    PlaneSource planes;
+    if (polygon.count < 3 || is_culled(back) || !clipper_.triangle_planes(c.v, polygon, planes)) {
+      ++segment_.culled;
+      return;
+    }
+    planes.provoking = c.v[provoking];
+    const auto source = uint32_t(segment_.plane_sources.size());
+    segment_.plane_sources.push_back(planes);
+    bool used = false;
+    for (int i = 1; i + 1 < polygon.count; ++i) {
+      const CutTriangle cut{{polygon.x[0], polygon.x[i], polygon.x[i + 1]},
+                            {polygon.y[0], polygon.y[i], polygon.y[i + 1]},
+                            source};
+      used |= append_cut(cut, back);
+    }
+    if (!used) segment_.plane_sources.pop_back();
+  }
+
+  bool append_cut(const CutTriangle& cut, bool back) {
+    const int64_t area = int64_t{cut.x[1] - cut.x[0]} * (cut.y[2] - cut.y[0]) -
+                         int64_t{cut.x[2] - cut.x[0]} * (cut.y[1] - cut.y[0]);
+    const Rect box = triangle_box(cut.x, cut.y);
+    if (area == 0 || box.empty()) return false;
+    segment_.cut_triangles.push_back(cut);
+    const auto index = uint32_t(segment_.cut_triangles.size() - 1);
+    bin(cut.x, cut.y, box, append({{index, 0, 0}, PrimitiveKind::triangle, true, back, 0}));
+    return true;
+  }
+
+  // Pixels a line of width 1 can reach: those its box touches, and one more for the diamonds beside it.
+  Rect line_box(const int32_t x[2], const int32_t y[2]) const {
+    return pixel_box(std::min(x[0], x[1]) - kSubpixelScale, std::min(y[0], y[1]) - kSubpixelScale,
+                     std::max(x[0], x[1]) + kSubpixelScale, std::max(y[0], y[1]) + kSubpixelScale, bounds_);
+  }
+
+  void line(uint32_t from, uint32_t to) {
+    const unsigned o0 = outcodes_[from], o1 = outcodes_[to];
+    if ((o0 & o1) != 0 || ((o0 | o1) & kOutNotFinite)) return;
+    if ((o0 | o1) & kOutCutMask) return cut_line(from, to, o0 | o1);
+    const int32_t x[2] = {head(from).x, head(to).x}, y[2] = {head(from).y, head(to).y};
+    const Rect box = line_box(x, y);
+    if (box.empty() || (x[0] == x[1] && y[0] == y[1])) return;
+    bin_box(segment_, tile_box(box), append({{from, to, to}, PrimitiveKind::line, false, false, 1}));
+  }
+
+  void cut_line(uint32_t from, uint32_t to, unsigned any) {
+    ++segment_.clipped;
+    const uint32_t v[2] = {from, to};
+    CutTriangle cut;
+    PlaneSource planes;
+    if (!clipper_.clip_line(v, any, cut, planes)) return;
+    const Rect box = line_box(cut.x, cut.y);
+    if (box.empty()) return;
+    cut.source = uint32_t(segment_.plane_sources.size());
+    const auto index = uint32_t(segment_.cut_triangles.size());
+    segment_.plane_sources.push_back(planes);
+    segment_.cut_triangles.push_back(cut);
+    bin_box(segment_, tile_box(box), append({{index, 0, 0}, PrimitiveKind::line, true, false, 0}));
+  }
+
+  void point(uint32_t v) {
+    if (outcodes_[v] != 0) return;
+    const VertexHead& at = head(v);
+    const int px = at.x >> kSubpixelBits, py = at.y >> kSubpixelBits;
+    const Rect box = intersect({px, py, px + 1, py + 1}, bounds_);
+    if (box.empty()) return;
+    bin_box(segment_, tile_box(box), append({{v, v, v}, PrimitiveKind::point, false, false, 0}));
+  }
+
+  Segment& segment_;
+  const uint32_t* indices_;
+  uint32_t index_count_;
+  const std::byte* records_;
+  size_t stride_;
+  const uint16_t* outcodes_;
+  Rect bounds_;
+  RasterState raster_;
+  Clipper clipper_;
+};
+
+// Idempotent, so that a draw may come in several ranges.
+void start_draw(const DrawRecord& draw, Segment& segment) {
+  if (!segment.draws.empty() && segment.draws.back().draw == &draw) return;
+  segment.draws.push_back({uint32_t(segment.primitives.size()), &draw});
+}
+
+}  // namespace
+
+void assemble(const DrawRecord& draw, Primitive mode, const uint32_t* indices, uint32_t index_count,
+              uint32_t first, uint32_t count, Segment& segment) {
+  start_draw(draw, segment);
+  if (draw.bounds.empty()) return;
+  Assembler assembler(draw, indices, index_count, segment);
+  switch (mode) {
+    case Primitive::points:
+      return assembler.points(first, count);
+    case Primitive::lines:
+    case Primitive::line_loop:
+    case Primitive::line_strip:
+      return assembler.lines(mode, first, count);
+    case Primitive::triangles:
+      return assembler.triangles<ListTriangles>(first, count);
+    case Primitive::triangle_strip:
+      return assembler.triangles<StripTriangles>(first, count);
+    case Primitive::triangle_fan:
+      return assembler.triangles<FanTriangles>(first, count);
+    case Primitive::polygon:
+      return assembler.triangles<PolygonTriangles>(first, count);
+    case Primitive::quads:
+      return assembler.triangles<QuadTriangles>(first, count);
+    case Primitive::quad_strip:
+      return assembler.triangles<QuadStripTriangles>(first, count);
+  }
+}
+
+}  // namespace halfspace::raster

@@ -1,0 +1,39 @@
+// Clipping in homogeneous coordinates: near and far, w > 0, and the guard band (spec 2.11, NUMERICS
+// "Clipping").
+#pragma once
+
+#include "raster/primitive/segment.h"
+#include "raster/vertex/window_transform.h"
+
+namespace halfspace::raster {
+
+// A triangle adds at most one corner for each of the seven planes.
+inline constexpr int kMaxPolygonVertices = 10;
+
+// Clips one draw's primitives. Holds what does not change over a draw.
+class Clipper {
+ public:
+  explicit Clipper(const DrawRecord& draw);
+
+  struct Polygon {
+    int count = 0;                   // 0: nothing is left
+    int64_t area = 0;                // twice the signed area, 16.8 squared; > 0 is counter-clockwise
+    int32_t x[kMaxPolygonVertices];  // 16.8; corner 0 is the apex of a fan in which no triangle turns the
+    int32_t y[kMaxPolygonVertices];  // other way than the whole
+  };
+
+  // Cuts the triangle of vertices v[0..2]; `outcodes` is the union of theirs.
+  void clip_triangle(const uint32_t v[3], unsigned outcodes, Polygon& out) const;
+  // Its planes, relative to the polygon's lowest corner (then leftmost). False: the triangle has no usable
+  // plane.
+  bool triangle_planes(const uint32_t v[3], const Polygon& polygon, PlaneSource& out) const;
+
+  // Cuts the line v[0], v[1] to out.x[0..1]; false: nothing is left.
+  bool clip_line(const uint32_t v[2], unsigned outcodes, CutTriangle& out, PlaneSource& planes) const;
+
+ private:
+  const DrawRecord& draw_;
+  WindowTransform window_;
+};
+
+}  // namespace halfspace::raster
