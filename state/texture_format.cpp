@@ -121,12 +121,13 @@ void reduce_to_base(BaseFormat base, uint8_t* rgba, size_t count) {
 void expand_from_base(BaseFormat base, uint8_t* rgba, size_t count) {
   switch (base) {
     case BaseFormat::luminance:
-    case BaseFormat::luminance_alpha:
-      return for_each_texel(rgba, count, [](uint8_t* t) { t[1] = t[2] = 0; });
     case BaseFormat::intensity:
       return for_each_texel(rgba, count, [](uint8_t* t) { t[1] = t[2] = 0, t[3] = 255; });
-    case BaseFormat::alpha:
+    case BaseFormat::luminance_alpha:
+      return for_each_texel(rgba, count, [](uint8_t* t) { t[1] = t[2] = 0; });
     case BaseFormat::rgb:
+      return for_each_texel(rgba, count, [](uint8_t* t) { t[3] = 255; });
+    case BaseFormat::alpha:
     case BaseFormat::rgba:
       return;
   }
