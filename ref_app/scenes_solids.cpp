@@ -1,0 +1,102 @@
+// Scenes 3 to 5: pyramids and cubes.
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "ref_app/scene_parts.h"
+#include "ref_app/shapes.h"
+
+namespace ref_app {
+namespace {
+
+const glm::vec3 kXAxis(1, 0, 0), kYAxis(0, 1, 0);
+
+glm::mat4 placed(const glm::vec3& position, float degrees, float scale) {
+  const glm::mat4 moved = glm::translate(glm::mat4(1.0F), position);
+  return glm::scale(glm::rotate(moved, glm::radians(degrees), kYAxis), glm::vec3(scale));
+}
+
+std::shared_ptr<const Geometry> share(Geometry mesh) {
+  return std::make_shared<const Geometry>(std::move(mesh));
+}
+
+class ColoredSolidsScene final : public ItemScene {
+ public:
+  explicit ColoredSolidsScene(Renderer& renderer) : ItemScene(renderer) {
+    camera_ = {{0, 0.9F, 6.0F}, {0, 0, 0}};
+    background_ = {0.08F, 0.09F, 0.12F, 1.0F};
+    const auto pyramid = share(
+        make_pyramid({{{1, 1, 1}, {1, 0.1F, 0.1F}, {0.1F, 0.9F, 0.2F}, {0.1F, 0.3F, 1}, {1, 0.85F, 0.1F}}}));
+    const auto cube = share(make_cube({{{0.90F, 0.25F, 0.20F},
+                                        {0.20F, 0.65F, 0.85F},
+                                        {0.95F, 0.80F, 0.25F},
+                                        {0.55F, 0.35F, 0.75F},
+                                        {0.25F, 0.70F, 0.35F},
+                                        {0.90F, 0.50F, 0.15F}}}));
+    items_ = {{pyramid, placed({-1.35F, 0, 0}, 25, 1.05F), false, kImageNeverAdded, 0.9F},
+              {cube, glm::rotate(placed({1.4F, -0.05F, 0}, 35, 0.85F), glm::radians(20.0F), kXAxis), false,
+               kImageNeverAdded, -0.7F}};
+  }
+};
+
+class TexturedCubeScene final : public ItemScene {
+ public:
+  TexturedCubeScene(Renderer& renderer, const Assets& assets) : ItemScene(renderer) {
+    camera_ = {{0, 1.6F, 4.0F}, {0, 0, 0}};
+    background_ = {0.20F, 0.24F, 0.30F, 1.0F};
+    const ImageHandle brick = images_.add(assets.brick());
+    items_ = {{share(make_cube(shaded_faces())), placed({0, 0, 0}, -32, 1), true, brick, 0.6F}};
+  }
+};
+
+class SolidsOnPlaneScene final : public ItemScene {
+ public:
+  SolidsOnPlaneScene(Renderer& renderer, const Assets& assets) : ItemScene(renderer) {
+    camera_ = {{0, 4.6F, 11.5F}, {0, 0.9F, 0}};
+    background_ = {0.55F, 0.68F, 0.82F, 1.0F};
+    const ImageHandle brick = images_.add(assets.brick());
+    const ImageHandle wood = images_.add(assets.wood());
+    const ImageHandle marble = images_.add(assets.marble());
+    const ImageHandle checker = images_.add(assets.checker());
+    items_.push_back({share(make_plane({14, 5, 1})), glm::mat4(1.0F), true, checker});
+
+    const auto cube = share(make_cube(shaded_faces()));
+    const auto add_cube = [&](float x, float z, float degrees, float scale, ImageHandle image) {
+      items_.push_back({cube, placed({x, scale, z}, degrees, scale), true, image, 0.4F});
+    };
+    add_cube(-3.4F, 2.2F, 20, 0.8F, brick);
+    add_cube(0.0F, 2.6F, 40, 0.75F, wood);
+    add_cube(3.4F, 2.2F, -25, 0.8F, marble);
+    add_cube(-5.2F, -3.0F, -15, 1.1F, marble);
+    add_cube(0.2F, -3.6F, 12, 1.2F, brick);
+    add_cube(5.4F, -3.0F, 33, 1.1F, wood);
+
+    // Texturing is on and the name has no image, so the pyramids show their colours.
+    const auto pyramid = share(make_pyramid({{{1.0F, 0.96F, 0.85F},
+                                              {0.95F, 0.55F, 0.25F},
+                                              {0.85F, 0.25F, 0.30F},
+                                              {0.35F, 0.25F, 0.60F},
+                                              {0.25F, 0.55F, 0.75F}}}));
+    const auto add_pyramid = [&](float x, float z, float degrees, float scale) {
+      items_.push_back({pyramid, placed({x, scale, z}, degrees, scale), true, kImageNeverAdded, -0.5F});
+    };
+    add_pyramid(-1.8F, 0.4F, 15, 0.9F);
+    add_pyramid(1.9F, 0.3F, 50, 0.9F);
+    add_pyramid(-2.6F, -6.0F, 30, 1.3F);
+    add_pyramid(3.0F, -6.4F, 70, 1.3F);
+    add_pyramid(0.0F, -8.5F, 5, 1.9F);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Scene> make_colored_solids_scene(Renderer& renderer) {
+  return std::make_unique<ColoredSolidsScene>(renderer);
+}
+std::unique_ptr<Scene> make_textured_cube_scene(Renderer& renderer, const Assets& assets) {
+  return std::make_unique<TexturedCubeScene>(renderer, assets);
+}
+std::unique_ptr<Scene> make_solids_on_plane_scene(Renderer& renderer, const Assets& assets) {
+  return std::make_unique<SolidsOnPlaneScene>(renderer, assets);
+}
+
+}  // namespace ref_app
