@@ -40,6 +40,7 @@ GLint to_integer(double value, GetKind kind);
 GLfloat to_float(double value);
 
 // The groups' rows. Each group's .cpp defines its own.
+std::span<const GetRow> capability_get_rows();
 std::span<const GetRow> current_get_rows();
 std::span<const GetRow> transform_get_rows();
 std::span<const GetRow> viewport_get_rows();

@@ -1,0 +1,142 @@
+// Queries whose answer no command changes: the implementation's limits, what the visual promised, and the
+// initial values of GL 1.1 state that cannot be set yet. A group that comes to life brings its own row, which
+// is then taken.
+#include <algorithm>
+
+#include "state/context.h"
+#include "state/get.h"
+
+namespace halfspace::state {
+namespace {
+
+#define FIXED(name, kind, value)                                              \
+  {                                                                           \
+    name, GetKind::kind, 1, [](const Context&, double* out) { *out = value; } \
+  }
+#define FIXED_2(name, kind, v0, v1)                           \
+  {                                                           \
+    name, GetKind::kind, 2, [](const Context&, double* out) { \
+      out[0] = v0;                                            \
+      out[1] = v1;                                            \
+    }                                                         \
+  }
+#define FIXED_4(name, kind, v0, v1, v2, v3)                   \
+  {                                                           \
+    name, GetKind::kind, 4, [](const Context&, double* out) { \
+      out[0] = v0;                                            \
+      out[1] = v1;                                            \
+      out[2] = v2;                                            \
+      out[3] = v3;                                            \
+    }                                                         \
+  }
+#define VISUAL(name, kind, field)                                                        \
+  {                                                                                      \
+    name, GetKind::kind, 1, [](const Context& c, double* out) { *out = c.visual.field; } \
+  }
+
+constexpr GetRow kRows[] = {
+    // limits (spec table 6.25)
+    FIXED(GL_SUBPIXEL_BITS, integer, 8),
+    FIXED(GL_MAX_TEXTURE_SIZE, integer, raster::kMaxTextureSize),
+    FIXED(GL_MAX_LIGHTS, integer, 8),
+    FIXED(GL_MAX_CLIP_PLANES, integer, 6),
+    FIXED(GL_MAX_ATTRIB_STACK_DEPTH, integer, 16),
+    FIXED(GL_MAX_CLIENT_ATTRIB_STACK_DEPTH, integer, 16),
+    FIXED(GL_MAX_LIST_NESTING, integer, 64),
+    FIXED(GL_MAX_NAME_STACK_DEPTH, integer, 64),
+    FIXED(GL_MAX_PIXEL_MAP_TABLE, integer, 256),
+    FIXED(GL_MAX_EVAL_ORDER, integer, 8),
+    FIXED_2(GL_POINT_SIZE_RANGE, real, 1, 1),
+    FIXED(GL_POINT_SIZE_GRANULARITY, real, 1),
+    FIXED_2(GL_LINE_WIDTH_RANGE, real, 1, 1),
+    FIXED(GL_LINE_WIDTH_GRANULARITY, real, 1),
+    // the visual
+    VISUAL(GL_RED_BITS, integer, red_bits),
+    VISUAL(GL_GREEN_BITS, integer, green_bits),
+    VISUAL(GL_BLUE_BITS, integer, blue_bits),
+    VISUAL(GL_ALPHA_BITS, integer, alpha_bits),
+    VISUAL(GL_DEPTH_BITS, integer, depth_bits),
+    VISUAL(GL_STENCIL_BITS, integer, stencil_bits),
+    VISUAL(GL_ACCUM_RED_BITS, integer, accum_bits),
+    VISUAL(GL_ACCUM_GREEN_BITS, integer, accum_bits),
+    VISUAL(GL_ACCUM_BLUE_BITS, integer, accum_bits),
+    VISUAL(GL_ACCUM_ALPHA_BITS, integer, accum_bits),
+    VISUAL(GL_DOUBLEBUFFER, boolean, double_buffered),
+    FIXED(GL_INDEX_BITS, integer, 0),
+    FIXED(GL_AUX_BUFFERS, integer, 0),
+    FIXED(GL_STEREO, boolean, 0),
+    FIXED(GL_RGBA_MODE, boolean, 1),
+    FIXED(GL_INDEX_MODE, boolean, 0),
+    // initial values
+    FIXED(GL_CURRENT_INDEX, real, 1),
+    FIXED_4(GL_CURRENT_RASTER_COLOR, normalized, 1, 1, 1, 1),
+    FIXED_4(GL_CURRENT_RASTER_POSITION, real, 0, 0, 0, 1),
+    FIXED_4(GL_CURRENT_RASTER_TEXTURE_COORDS, real, 0, 0, 0, 1),
+    FIXED(GL_CURRENT_RASTER_DISTANCE, real, 0),
+    FIXED(GL_CURRENT_RASTER_INDEX, real, 1),
+    FIXED(GL_CURRENT_RASTER_POSITION_VALID, boolean, 1),
+    FIXED(GL_POINT_SIZE, real, 1),
+    FIXED(GL_LINE_WIDTH, real, 1),
+    FIXED(GL_LINE_STIPPLE_PATTERN, integer, 0xffff),
+    FIXED(GL_LINE_STIPPLE_REPEAT, integer, 1),
+    FIXED(GL_POLYGON_OFFSET_FACTOR, real, 0),
+    FIXED(GL_POLYGON_OFFSET_UNITS, real, 0),
+    FIXED_4(GL_LIGHT_MODEL_AMBIENT, normalized, 0.2, 0.2, 0.2, 1),
+    FIXED(GL_LIGHT_MODEL_LOCAL_VIEWER, boolean, 0),
+    FIXED(GL_LIGHT_MODEL_TWO_SIDE, boolean, 0),
+    FIXED(GL_COLOR_MATERIAL_FACE, enumeration, GL_FRONT_AND_BACK),
+    FIXED(GL_COLOR_MATERIAL_PARAMETER, enumeration, GL_AMBIENT_AND_DIFFUSE),
+    FIXED_4(GL_FOG_COLOR, normalized, 0, 0, 0, 0),
+    FIXED(GL_FOG_INDEX, real, 0),
+    FIXED(GL_FOG_DENSITY, real, 1),
+    FIXED(GL_FOG_START, real, 0),
+    FIXED(GL_FOG_END, real, 1),
+    FIXED(GL_FOG_MODE, enumeration, GL_EXP),
+    FIXED(GL_STENCIL_FUNC, enumeration, GL_ALWAYS),
+    FIXED(GL_STENCIL_VALUE_MASK, integer, 0xffffffff),
+    FIXED(GL_STENCIL_REF, integer, 0),
+    FIXED(GL_STENCIL_FAIL, enumeration, GL_KEEP),
+    FIXED(GL_STENCIL_PASS_DEPTH_FAIL, enumeration, GL_KEEP),
+    FIXED(GL_STENCIL_PASS_DEPTH_PASS, enumeration, GL_KEEP),
+    FIXED(GL_STENCIL_WRITEMASK, integer, 0xffffffff),
+    FIXED(GL_INDEX_WRITEMASK, integer, 0xffffffff),
+    FIXED_4(GL_ACCUM_CLEAR_VALUE, normalized, 0, 0, 0, 0),
+    FIXED(GL_LOGIC_OP_MODE, enumeration, GL_COPY),
+    FIXED(GL_RENDER_MODE, enumeration, GL_RENDER),
+    FIXED(GL_LIST_BASE, integer, 0),
+    FIXED(GL_LIST_INDEX, integer, 0),
+    FIXED(GL_LIST_MODE, enumeration, 0),
+    FIXED(GL_ATTRIB_STACK_DEPTH, integer, 0),
+    FIXED(GL_CLIENT_ATTRIB_STACK_DEPTH, integer, 0),
+    FIXED(GL_NAME_STACK_DEPTH, integer, 0),
+    FIXED_2(GL_MAP1_GRID_DOMAIN, real, 0, 1),
+    FIXED(GL_MAP1_GRID_SEGMENTS, integer, 1),
+    FIXED_4(GL_MAP2_GRID_DOMAIN, real, 0, 1, 0, 1),
+    FIXED_2(GL_MAP2_GRID_SEGMENTS, integer, 1, 1),
+    FIXED(GL_ZOOM_X, real, 1),
+    FIXED(GL_ZOOM_Y, real, 1),
+    FIXED(GL_MAP_COLOR, boolean, 0),
+    FIXED(GL_MAP_STENCIL, boolean, 0),
+    FIXED(GL_INDEX_SHIFT, integer, 0),
+    FIXED(GL_INDEX_OFFSET, integer, 0),
+    FIXED(GL_RED_SCALE, real, 1),
+    FIXED(GL_GREEN_SCALE, real, 1),
+    FIXED(GL_BLUE_SCALE, real, 1),
+    FIXED(GL_ALPHA_SCALE, real, 1),
+    FIXED(GL_DEPTH_SCALE, real, 1),
+    FIXED(GL_RED_BIAS, real, 0),
+    FIXED(GL_GREEN_BIAS, real, 0),
+    FIXED(GL_BLUE_BIAS, real, 0),
+    FIXED(GL_ALPHA_BIAS, real, 0),
+    FIXED(GL_DEPTH_BIAS, real, 0),
+};
+#undef FIXED
+#undef FIXED_2
+#undef FIXED_4
+#undef VISUAL
+
+}  // namespace
+
+std::span<const GetRow> limits_get_rows() { return kRows; }
+
+}  // namespace halfspace::state
