@@ -29,8 +29,6 @@ struct Capability {
 };
 
 std::span<const Capability> all_capabilities();
-// Null when GL 1.1 has no such capability.
-const Capability* find_capability(GLenum name);
 bool capability_enabled(const Context& context, const Capability& capability);
 
 }  // namespace halfspace::state

@@ -19,7 +19,7 @@ struct ColorBufferState {
   raster::ColorMask mask;
   raster::Color clear_color;  // in [0, 1]
   float clear_index = 0;
-  GLenum draw_buffer = GL_NONE, read_buffer = GL_NONE;  // the first make-current sets GL_BACK or GL_FRONT
+  GLenum draw_buffer = GL_NONE, read_buffer = GL_NONE;
 };
 
 // The buffer glReadPixels reads, or null when there is no drawable.

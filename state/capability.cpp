@@ -1,0 +1,159 @@
+#include "state/capability.h"
+
+#include <array>
+#include <atomic>
+#include <utility>
+
+#include "state/context.h"
+#include "state/get.h"
+#include "state/operations.gen.h"
+#include "state/report.h"
+
+namespace halfspace::state {
+namespace {
+
+#define LIVE(cap, field, dirty)                                    \
+  {                                                                \
+    cap, #cap, [](Context& c) -> bool* { return &c.field; }, dirty \
+  }
+#define IDLE(cap) \
+  { cap, #cap, nullptr, 0 }
+
+constexpr Capability kCapabilities[] = {
+    LIVE(GL_ALPHA_TEST, color_buffer.alpha_test, kDirtyFragment),
+    LIVE(GL_BLEND, color_buffer.blend, kDirtyFragment),
+    LIVE(GL_CULL_FACE, polygon.cull, kDirtyRaster),
+    LIVE(GL_DEPTH_TEST, depth_buffer.test, kDirtyFragment),
+    LIVE(GL_DITHER, color_buffer.dither, 0),
+    LIVE(GL_SCISSOR_TEST, scissor.test, kDirtyRaster),
+    LIVE(GL_TEXTURE_1D, texture.enabled_1d, kDirtyTexture),
+    LIVE(GL_TEXTURE_2D, texture.enabled_2d, kDirtyTexture),
+    IDLE(GL_AUTO_NORMAL),
+    IDLE(GL_CLIP_PLANE0),
+    IDLE(GL_CLIP_PLANE1),
+    IDLE(GL_CLIP_PLANE2),
+    IDLE(GL_CLIP_PLANE3),
+    IDLE(GL_CLIP_PLANE4),
+    IDLE(GL_CLIP_PLANE5),
+    IDLE(GL_COLOR_LOGIC_OP),
+    IDLE(GL_COLOR_MATERIAL),
+    IDLE(GL_FOG),
+    IDLE(GL_INDEX_LOGIC_OP),
+    IDLE(GL_LIGHT0),
+    IDLE(GL_LIGHT1),
+    IDLE(GL_LIGHT2),
+    IDLE(GL_LIGHT3),
+    IDLE(GL_LIGHT4),
+    IDLE(GL_LIGHT5),
+    IDLE(GL_LIGHT6),
+    IDLE(GL_LIGHT7),
+    IDLE(GL_LIGHTING),
+    IDLE(GL_LINE_SMOOTH),
+    IDLE(GL_LINE_STIPPLE),
+    IDLE(GL_MAP1_COLOR_4),
+    IDLE(GL_MAP1_INDEX),
+    IDLE(GL_MAP1_NORMAL),
+    IDLE(GL_MAP1_TEXTURE_COORD_1),
+    IDLE(GL_MAP1_TEXTURE_COORD_2),
+    IDLE(GL_MAP1_TEXTURE_COORD_3),
+    IDLE(GL_MAP1_TEXTURE_COORD_4),
+    IDLE(GL_MAP1_VERTEX_3),
+    IDLE(GL_MAP1_VERTEX_4),
+    IDLE(GL_MAP2_COLOR_4),
+    IDLE(GL_MAP2_INDEX),
+    IDLE(GL_MAP2_NORMAL),
+    IDLE(GL_MAP2_TEXTURE_COORD_1),
+    IDLE(GL_MAP2_TEXTURE_COORD_2),
+    IDLE(GL_MAP2_TEXTURE_COORD_3),
+    IDLE(GL_MAP2_TEXTURE_COORD_4),
+    IDLE(GL_MAP2_VERTEX_3),
+    IDLE(GL_MAP2_VERTEX_4),
+    IDLE(GL_NORMALIZE),
+    IDLE(GL_POINT_SMOOTH),
+    IDLE(GL_POLYGON_OFFSET_FILL),
+    IDLE(GL_POLYGON_OFFSET_LINE),
+    IDLE(GL_POLYGON_OFFSET_POINT),
+    IDLE(GL_POLYGON_SMOOTH),
+    IDLE(GL_POLYGON_STIPPLE),
+    IDLE(GL_STENCIL_TEST),
+    IDLE(GL_TEXTURE_GEN_Q),
+    IDLE(GL_TEXTURE_GEN_R),
+    IDLE(GL_TEXTURE_GEN_S),
+    IDLE(GL_TEXTURE_GEN_T),
+};
+#undef LIVE
+#undef IDLE
+
+constexpr size_t kCapabilityCount = std::size(kCapabilities);
+static_assert(kCapabilityCount <= kMaxCapabilities);
+
+const Capability* find_capability(GLenum name) {
+  for (const Capability& capability : kCapabilities) {
+    if (capability.name == name) return &capability;
+  }
+  return nullptr;
+}
+
+size_t index_of(const Capability& capability) { return size_t(&capability - kCapabilities); }
+
+void report_idle(const Capability& capability) {
+  static std::atomic<uint64_t> reported{0};
+  const uint64_t bit = uint64_t{1} << index_of(capability);
+  if (!(reported.fetch_or(bit) & bit)) report("glEnable(%s) has no effect yet", capability.text);
+}
+
+void set_capability(Context& context, GLenum name, bool on, const char* operation) {
+  const Capability* capability = find_capability(name);
+  if (!capability) return record_error(context, GL_INVALID_ENUM, operation);
+  if (!capability->bit) {
+    context.capability.idle[index_of(*capability)] = on;
+    if (on) report_idle(*capability);
+    return;
+  }
+  bool& bit = *capability->bit(context);
+  if (bit == on) return;
+  bit = on;
+  mark_dirty(context, capability->dirty);
+}
+
+template <size_t kIndex>
+void read_capability(const Context& context, double* out) {
+  *out = capability_enabled(context, kCapabilities[kIndex]);
+}
+
+template <size_t... kIndex>
+constexpr std::array<GetRow, sizeof...(kIndex)> capability_rows(std::index_sequence<kIndex...>) {
+  return {GetRow{kCapabilities[kIndex].name, GetKind::boolean, 1, read_capability<kIndex>}...};
+}
+
+}  // namespace
+
+std::span<const Capability> all_capabilities() { return kCapabilities; }
+
+bool capability_enabled(const Context& context, const Capability& capability) {
+  // The accessor hands out a pointer to write through; here it is only read.
+  if (capability.bit) return *capability.bit(const_cast<Context&>(context));
+  return context.capability.idle[index_of(capability)];
+}
+
+std::span<const GetRow> capability_get_rows() {
+  static constexpr auto kRows = capability_rows(std::make_index_sequence<kCapabilityCount>());
+  return kRows;
+}
+
+namespace op {
+
+void enable(Context& context, GLenum cap) { set_capability(context, cap, true, "enable"); }
+
+void disable(Context& context, GLenum cap) { set_capability(context, cap, false, "disable"); }
+
+// Client arrays can be asked for as well (spec 6.1.1), though glEnable does not know them.
+GLboolean is_enabled(Context& context, GLenum cap) {
+  if (const Capability* capability = find_capability(cap)) return capability_enabled(context, *capability);
+  if (const ClientArray* array = find_client_array(context.vertex_array, cap)) return array->enabled;
+  record_error(context, GL_INVALID_ENUM);
+  return GL_FALSE;
+}
+
+}  // namespace op
+}  // namespace halfspace::state
