@@ -1,0 +1,171 @@
+#include "state/immediate.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include "state/context.h"
+#include "state/operations.gen.h"
+
+namespace halfspace::state {
+namespace {
+
+constexpr uint32_t kFirstBatchVertices = 1020;  // a multiple of 12, as kMaxBatchVertices is
+
+// Points the cursor behind `count` vertices at the start of the buffer.
+void set_cursor(ImmediateState& im, uint32_t count) {
+  const size_t capacity = im.buffer.size() / kTexturedVertexFloats;
+  im.cursor = im.buffer.data() + size_t(count) * im.vertex_floats();
+  im.limit = im.buffer.data() + capacity * im.vertex_floats();
+}
+
+float* vertex_at(ImmediateState& im, uint32_t i) { return im.buffer.data() + size_t(i) * im.vertex_floats(); }
+
+void draw_gathered(Context& context, GLenum mode, uint32_t count) {
+  if (count == 0) return;
+  ImmediateState& im = context.immediate;
+  const float* v = im.buffer.data();
+  const size_t stride = im.vertex_floats() * sizeof(float);
+  raster::DrawPacket packet;
+  packet.primitive = primitive_of(mode);
+  packet.index_count = packet.batch.count = count;
+  packet.batch.position = {v, stride, 4};
+  packet.batch.color = {v + 4, im.color_varies ? stride : 0, 4};
+  if (im.textured) packet.batch.tex_coord = {v + 8, stride, 4};
+  submit(context, packet);
+}
+
+// Where a batch of `count` vertices may be cut so that the drawing goes on as if it had not been: how many to
+// draw, and the vertices that the rest begins with.
+struct Cut {
+  uint32_t draw;
+  bool keep_first;  // the centre of a fan
+  uint32_t keep_from;
+};
+
+Cut find_cut(GLenum mode, uint32_t count) {
+  const auto whole = [count](uint32_t n) { return Cut{count - count % n, false, count - count % n}; };
+  switch (mode) {
+    case GL_LINES:
+      return whole(2);
+    case GL_TRIANGLES:
+      return whole(3);
+    case GL_QUADS:
+      return whole(4);
+    case GL_LINE_STRIP:
+    case GL_LINE_LOOP:
+      return {count, false, count - 1};
+    // An even number of triangles, for the next one's orientation.
+    case GL_TRIANGLE_STRIP:
+    case GL_QUAD_STRIP:
+      return {count - count % 2, false, count - count % 2 - 2};
+    case GL_TRIANGLE_FAN:
+    case GL_POLYGON:
+      return {count, true, count - 1};
+    default:
+      return whole(1);
+  }
+}
+
+void remember_loop_start(ImmediateState& im) {
+  if (im.mode != GL_LINE_LOOP || im.loop_parted) return;
+  std::copy_n(im.buffer.data(), im.vertex_floats(), im.loop_first);
+  im.loop_parted = true;
+}
+
+// The mode the gathered vertices are drawn with: of a parted loop, a strip.
+GLenum batch_mode(const ImmediateState& im) { return im.loop_parted ? GL_LINE_STRIP : im.mode; }
+
+// Draws what is gathered, and moves what the rest needs to the buffer's start.
+void part_batch(Context& context) {
+  ImmediateState& im = context.immediate;
+  const uint32_t count = im.vertex_count();
+  const Cut cut = find_cut(im.mode, count);
+  remember_loop_start(im);
+  draw_gathered(context, batch_mode(im), cut.draw);
+  const uint32_t kept_first = cut.keep_first ? 1 : 0;
+  const uint32_t kept = count - cut.keep_from;
+  std::memmove(vertex_at(im, kept_first), vertex_at(im, cut.keep_from),
+               kept * im.vertex_floats() * sizeof(float));
+  set_cursor(im, kept_first + kept);
+}
+
+bool grow(ImmediateState& im) try {
+  const size_t capacity = im.buffer.size() / kTexturedVertexFloats;
+  if (capacity >= kMaxBatchVertices) return false;
+  const uint32_t count = im.vertex_count();
+  const size_t wanted = capacity ? std::min<size_t>(capacity * 4, kMaxBatchVertices) : kFirstBatchVertices;
+  im.buffer.resize(wanted * kTexturedVertexFloats);
+  set_cursor(im, count);
+  return true;
+} catch (const std::bad_alloc&) {
+  return false;
+}
+
+// Called with the buffer full, or outside Begin/End, where a vertex has no meaning (spec 2.6.3: undefined).
+bool make_room(Context& context) {
+  ImmediateState& im = context.immediate;
+  if (!im.inside) return false;
+  if (!grow(im)) part_batch(context);
+  return true;
+}
+
+}  // namespace
+
+namespace op {
+
+void begin(Context& context, GLenum mode) {
+  ImmediateState& im = context.immediate;
+  if (im.inside) return record_error(context, GL_INVALID_OPERATION);
+  if (mode > GL_POLYGON) return record_error(context, GL_INVALID_ENUM);
+  if (im.buffer.empty() && !grow(im)) return record_error(context, GL_OUT_OF_MEMORY);
+  im.inside = true;
+  im.mode = mode;
+  im.color_varies = im.loop_parted = false;
+  im.textured = context.texture.enabled_1d || context.texture.enabled_2d;
+  set_cursor(im, 0);
+  set_table(context, kInsideBeginEndTable);
+}
+
+void end(Context& context) {
+  ImmediateState& im = context.immediate;
+  if (!im.inside) return record_error(context, GL_INVALID_OPERATION);
+  if (im.loop_parted) {
+    if (im.cursor == im.limit) part_batch(context);
+    std::copy_n(im.loop_first, im.vertex_floats(), im.cursor);
+    im.cursor += im.vertex_floats();
+  }
+  draw_gathered(context, batch_mode(im), im.vertex_count());
+  im.inside = false;
+  im.cursor = im.limit = nullptr;
+  set_table(context, kExecuteTable);
+}
+
+void vertex(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
+  ImmediateState& im = context.immediate;
+  if (im.cursor == im.limit) [[unlikely]] {
+    if (!make_room(context)) return;
+  }
+  float* v = im.cursor;
+  v[0] = x;
+  v[1] = y;
+  v[2] = z;
+  v[3] = w;
+  std::memcpy(v + 4, context.current.color, 4 * sizeof(float));
+  if (im.textured) std::memcpy(v + 8, context.current.tex_coord, 4 * sizeof(float));
+  im.cursor = v + im.vertex_floats();
+}
+
+// Spec 2.11: the same as a polygon of these four vertices.
+void rect(Context& context, GLfloat x1, GLfloat y1, GLfloat x2, GLfloat y2) {
+  if (context.immediate.inside) return record_error(context, GL_INVALID_OPERATION);
+  begin(context, GL_POLYGON);
+  vertex(context, x1, y1, 0, 1);
+  vertex(context, x2, y1, 0, 1);
+  vertex(context, x2, y2, 0, 1);
+  vertex(context, x1, y2, 0, 1);
+  end(context);
+}
+
+}  // namespace op
+}  // namespace halfspace::state
