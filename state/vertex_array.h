@@ -1,6 +1,7 @@
 // Client vertex arrays (spec 2.8).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,11 +22,17 @@ struct VertexArrayState {
   ClientArray normal{.size = 3};
   ClientArray edge_flag{.size = 1, .type = GL_UNSIGNED_BYTE};
   ClientArray index{.size = 1};
-  bool null_reported = false;  // "an enabled array is null" is said once
+  bool bad_memory_reported = false;  // said once a context
+
+  // Pages known to be readable, by the low bits of the page number (vertex_array.cpp).
+  std::array<uintptr_t, 64> readable_pages{};
 
   // Scratch of the draw in flight; kept so that the steady state allocates nothing.
   std::vector<float> position_scratch, color_scratch, tex_coord_scratch;
   std::vector<uint32_t> index_scratch;
 };
+
+// The array GL_VERTEX_ARRAY, GL_COLOR_ARRAY ... names, or null.
+ClientArray* find_client_array(VertexArrayState& arrays, GLenum name);
 
 }  // namespace halfspace::state

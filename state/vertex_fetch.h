@@ -1,0 +1,32 @@
+// Reading client arrays: elements of any type and stride become floats (spec 2.8, table 2.6).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "raster/api/draw_packet.h"
+#include "state/vertex_array.h"
+
+namespace halfspace::state {
+
+// plain: the number itself. normalized: the largest integer is 1.0.
+enum class Conversion : bool { plain, normalized };
+
+size_t type_bytes(GLenum type);
+size_t element_bytes(const ClientArray& array);
+size_t stride_bytes(const ClientArray& array);
+
+// Elements first .. first+count-1. Floats are passed on where they are; other types are converted into
+// `scratch`.
+raster::AttributeStream fetch_range(const ClientArray& array, Conversion conversion, size_t first,
+                                    size_t count, std::vector<float>& scratch);
+
+// Elements indices[0 .. count-1], in that order, packed into `scratch`.
+raster::AttributeStream fetch_indexed(const ClientArray& array, Conversion conversion,
+                                      const uint32_t* indices, size_t count, std::vector<float>& scratch);
+
+// One element; `out` gets array.size floats, the rest of its four stay.
+void fetch_element(const ClientArray& array, Conversion conversion, size_t index, float out[4]);
+
+}  // namespace halfspace::state
