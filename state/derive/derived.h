@@ -6,6 +6,7 @@
 
 #include "raster/api/draw_packet.h"
 #include "raster/api/draw_state.h"
+#include "state/gl_types.h"
 
 namespace halfspace::state {
 
@@ -23,6 +24,7 @@ enum DirtyBits : uint32_t {
 
 struct DerivedState {
   uint32_t dirty = kDirtyAll;
+  uint64_t texture_revision = 0;  // of the texture unit in `state`
   raster::Accuracy accuracy = raster::Accuracy::standard;
   std::shared_ptr<const raster::DrawState> state;
 };
@@ -35,6 +37,9 @@ const std::shared_ptr<const raster::DrawState>& derive(Context& context);
 
 // HALFSPACE_ACCURACY; standard, with a message, when it says nothing known.
 raster::Accuracy accuracy_from_environment();
+
+// `mode`: GL_POINTS .. GL_POLYGON.
+raster::Primitive primitive_of(GLenum mode);
 
 // Draws on every buffer that drawing goes to. `packet.state` is filled in here. Out of memory is recorded as
 // GL_OUT_OF_MEMORY.

@@ -1,0 +1,88 @@
+#include "state/context.h"
+
+#include <new>
+
+#include "state/operations.gen.h"
+
+namespace halfspace::state {
+
+thread_local constinit CurrentBinding current_binding
+    __attribute__((tls_model("initial-exec"))) = {nullptr, &kNoContextTable};
+
+Context::Context(const VisualConfig& config, Context* share)
+    : visual(config), table(&kExecuteTable), texture(share ? &share->texture : nullptr) {
+  color_buffer.draw_buffer = color_buffer.read_buffer = config.double_buffered ? GL_BACK : GL_FRONT;
+  derived.accuracy = accuracy_from_environment();
+}
+
+Context::~Context() {
+  if (current_binding.context == this) current_binding = {nullptr, &kNoContextTable};
+}
+
+namespace {
+
+// Executes what is pending, shows what can be seen without a swap, and lets go of the drawable's buffers.
+void release(Context& context) try {
+  op::flush(context);
+  context.device.begin_pass(nullptr);
+  context.drawable = context.read_drawable = nullptr;
+} catch (const std::bad_alloc&) {
+  context.drawable = context.read_drawable = nullptr;
+  record_error(context, GL_OUT_OF_MEMORY, "make_current");
+}
+
+void size_to_drawable(Context& context) {
+  const int width = context.drawable->width(), height = context.drawable->height();
+  context.viewport.x = context.viewport.y = context.scissor.x = context.scissor.y = 0;
+  context.viewport.width = context.scissor.width = width;
+  context.viewport.height = context.scissor.height = height;
+  mark_dirty(context, kDirtyViewport | kDirtyRaster);
+}
+
+// Calls finish(device, buffer) of the drawable for each buffer that is drawn to.
+void finish_drawing(Context& context, const char* operation) try {
+  if (!context.drawable) return;
+  raster::Framebuffer* targets[2];
+  const int count = draw_framebuffers(context, targets);
+  for (int i = 0; i < count; ++i) {
+    context.device.begin_pass(targets[i]);
+    context.drawable->finish(context.device, *targets[i]);
+  }
+  if (count == 0) context.device.finish();
+} catch (const std::bad_alloc&) {
+  record_error(context, GL_OUT_OF_MEMORY, operation);
+}
+
+}  // namespace
+
+void make_current(Context* context, Drawable* drawable) {
+  Context* previous = current_binding.context;
+  const bool same = previous == context && context && context->drawable == drawable;
+  // With the same pair again the drawable may have changed its size: its buffers are looked up anew.
+  if (previous && !same) release(*previous);
+  if (!context) {
+    current_binding = {nullptr, &kNoContextTable};
+    return;
+  }
+  context->drawable = drawable;
+  context->read_drawable = nullptr;
+  current_binding = {context, context->table};
+  if (drawable && !context->was_current) {
+    context->was_current = true;
+    size_to_drawable(*context);
+  }
+}
+
+void set_table(Context& context, const OperationTable& table) {
+  context.table = &table;
+  if (current_binding.context == &context) current_binding.table = &table;
+}
+
+namespace op {
+
+void finish(Context& context) { finish_drawing(context, "finish"); }
+
+void flush(Context& context) { finish_drawing(context, "flush"); }
+
+}  // namespace op
+}  // namespace halfspace::state

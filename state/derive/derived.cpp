@@ -1,0 +1,160 @@
+#include "state/derive/derived.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <utility>
+
+#include "state/context.h"
+#include "state/report.h"
+
+namespace halfspace::state {
+namespace {
+
+using raster::BlendFactor;
+using raster::CompareFunc;
+using raster::DrawState;
+using raster::Primitive;
+
+static_assert(int(Primitive::points) == GL_POINTS && int(Primitive::line_loop) == GL_LINE_LOOP &&
+              int(Primitive::triangle_fan) == GL_TRIANGLE_FAN && int(Primitive::polygon) == GL_POLYGON);
+static_assert(int(CompareFunc::less) == GL_LESS - GL_NEVER &&
+              int(CompareFunc::greater_equal) == GL_GEQUAL - GL_NEVER &&
+              int(CompareFunc::always) == GL_ALWAYS - GL_NEVER);
+
+CompareFunc compare_func_of(GLenum func) { return CompareFunc(func - GL_NEVER); }
+
+// A visual without alpha has Ad = 1 wherever it is asked for (spec 4.1.7).
+BlendFactor without_destination_alpha(BlendFactor factor) {
+  switch (factor) {
+    case BlendFactor::dst_alpha:
+      return BlendFactor::one;
+    case BlendFactor::one_minus_dst_alpha:
+    case BlendFactor::src_alpha_saturate:
+      return BlendFactor::zero;
+    default:
+      return factor;
+  }
+}
+
+BlendFactor blend_factor_of(GLenum factor, bool has_alpha) {
+  const auto find = [factor] {
+    switch (factor) {
+      case GL_ZERO:
+        return BlendFactor::zero;
+      case GL_SRC_COLOR:
+        return BlendFactor::src_color;
+      case GL_ONE_MINUS_SRC_COLOR:
+        return BlendFactor::one_minus_src_color;
+      case GL_DST_COLOR:
+        return BlendFactor::dst_color;
+      case GL_ONE_MINUS_DST_COLOR:
+        return BlendFactor::one_minus_dst_color;
+      case GL_SRC_ALPHA:
+        return BlendFactor::src_alpha;
+      case GL_ONE_MINUS_SRC_ALPHA:
+        return BlendFactor::one_minus_src_alpha;
+      case GL_DST_ALPHA:
+        return BlendFactor::dst_alpha;
+      case GL_ONE_MINUS_DST_ALPHA:
+        return BlendFactor::one_minus_dst_alpha;
+      case GL_SRC_ALPHA_SATURATE:
+        return BlendFactor::src_alpha_saturate;
+      default:
+        return BlendFactor::one;
+    }
+  };
+  return has_alpha ? find() : without_destination_alpha(find());
+}
+
+std::array<double, 16> widen(const Matrix& m) {
+  std::array<double, 16> wide;
+  std::copy(m.begin(), m.end(), wide.begin());
+  return wide;
+}
+
+void derive_transform(const Context& context, DrawState& out) {
+  const TransformState& t = context.transform;
+  out.clip_from_object = multiply(widen(t.projection.top()).data(), widen(t.modelview.top()).data());
+}
+
+void derive_viewport(const Context& context, DrawState& out) {
+  const ViewportState& v = context.viewport;
+  out.viewport = {v.x, v.y, v.width, v.height, v.depth_near, v.depth_far};
+}
+
+void derive_raster(const Context& context, DrawState& out) {
+  const PolygonState& p = context.polygon;
+  out.raster.cull_front = p.cull && p.cull_face != GL_BACK;
+  out.raster.cull_back = p.cull && p.cull_face != GL_FRONT;
+  out.raster.front_is_ccw = p.front_face == GL_CCW;
+  out.raster.flat_shading = context.lighting.shade_model == GL_FLAT;
+  out.raster.scissor_test = context.scissor.test;
+  out.raster.scissor = context.scissor.rect();
+}
+
+void derive_fragment(const Context& context, DrawState& out) {
+  const DepthBufferState& d = context.depth_buffer;
+  const ColorBufferState& c = context.color_buffer;
+  const bool has_alpha = context.visual.alpha_bits > 0;
+  // Without a depth buffer the test always passes (spec 4.1.6).
+  out.depth = {d.test && context.visual.depth_bits > 0, compare_func_of(d.func), d.write};
+  out.alpha_test = {c.alpha_test, compare_func_of(c.alpha_func), c.alpha_reference};
+  out.blend = {c.blend, blend_factor_of(c.blend_src, has_alpha), blend_factor_of(c.blend_dst, has_alpha)};
+  out.color_mask = c.mask;
+}
+
+void derive_texture(Context& context, DrawState& out) {
+  raster::TextureUnitState& unit = out.texture;
+  unit.view = current_texture_view(context);
+  unit.env = texture_env_mode(context);
+  unit.env_color = texture_env_color(context);
+  const Matrix& matrix = context.transform.texture.top();
+  unit.matrix = widen(matrix);
+  unit.matrix_is_identity = matrix == kIdentity;
+}
+
+}  // namespace
+
+void mark_dirty(Context& context, uint32_t bits) { context.derived.dirty |= bits; }
+
+raster::Primitive primitive_of(GLenum mode) { return Primitive(mode); }
+
+const std::shared_ptr<const DrawState>& derive(Context& context) {
+  DerivedState& derived = context.derived;
+  // Textures also change behind the context's back, by another one that shares them.
+  const uint64_t revision = texture_revision(context);
+  if (revision != derived.texture_revision) derived.dirty |= kDirtyTexture;
+  if (derived.dirty == 0) return derived.state;
+  auto next = derived.state ? std::make_shared<DrawState>(*derived.state) : std::make_shared<DrawState>();
+  if (derived.dirty & kDirtyTransform) derive_transform(context, *next);
+  if (derived.dirty & kDirtyViewport) derive_viewport(context, *next);
+  if (derived.dirty & kDirtyRaster) derive_raster(context, *next);
+  if (derived.dirty & kDirtyFragment) derive_fragment(context, *next);
+  if (derived.dirty & kDirtyTexture) derive_texture(context, *next);
+  next->accuracy = derived.accuracy;
+  derived.texture_revision = revision;
+  derived.dirty = 0;
+  derived.state = std::move(next);
+  return derived.state;
+}
+
+raster::Accuracy accuracy_from_environment() {
+  const char* value = std::getenv("HALFSPACE_ACCURACY");
+  if (!value || !*value || std::strcmp(value, "standard") == 0) return raster::Accuracy::standard;
+  if (std::strcmp(value, "draft") == 0) return raster::Accuracy::draft;
+  if (std::strcmp(value, "exact") == 0) return raster::Accuracy::exact;
+  report("HALFSPACE_ACCURACY is '%s'; it can be draft, standard or exact. Taking standard", value);
+  return raster::Accuracy::standard;
+}
+
+void submit(Context& context, raster::DrawPacket& packet) try {
+  if (!context.drawable || context.color_buffer.draw_buffer == GL_NONE) return;
+  packet.state = derive(context);
+  draw_to_buffers(context, context.device, [&](raster::Device& device) { device.draw(packet); });
+} catch (const std::bad_alloc&) {
+  record_error(context, GL_OUT_OF_MEMORY, "a draw");
+}
+
+}  // namespace halfspace::state
