@@ -33,10 +33,10 @@ inline float smooth_wave(float x) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-// Value noise in [0, 1) with a continuous gradient; x, y >= 0; repeats after `period_x` and `period_y`
+// Gradient noise in [0, 1], 0.5 at the lattice points, with a continuous gradient; x, y >= 0; repeats after
 // lattice cells.
-float value_noise(float x, float y, uint32_t period_x, uint32_t period_y, uint32_t seed);
-// `octaves` of it, each of twice the frequency and half the weight of the one before; in [0, 1).
+float gradient_noise(float x, float y, uint32_t period_x, uint32_t period_y, uint32_t seed);
+// `octaves` of it, each of twice the frequency and 0.45 of the weight of the one before; in [0, 1].
 float fractal_noise(float x, float y, uint32_t period, int octaves, uint32_t seed);
 // The same made of ridges: sharp crests, wide valleys.
 float ridged_noise(float x, float y, uint32_t period, int octaves, uint32_t seed);

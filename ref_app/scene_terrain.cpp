@@ -10,13 +10,13 @@ namespace {
 class TerrainScene final : public ItemScene {
  public:
   TerrainScene(Renderer& renderer, const Assets& assets) : ItemScene(renderer) {
-    camera_ = {{0.6F, 7.2F, 9.6F}, {0, 0.2F, 0.6F}};
+    camera_ = {{0.0F, 8.0F, 11.0F}, {0, 0.0F, 1.2F}};
     background_ = {0.62F, 0.74F, 0.86F, 1.0F};
     const Image heights = assets.height_map();
     const ImageHandle dress = images_.add(assets.terrain_texture(heights));
     constexpr float kHalfSize = 8.0F;
     const glm::mat4 world = glm::scale(glm::mat4(1.0F), glm::vec3(kHalfSize, 1.0F, kHalfSize));
-    items_ = {{std::make_shared<const Geometry>(make_terrain(heights, 3.2F)), world, true, dress}};
+    items_ = {{std::make_shared<const Geometry>(make_terrain(heights, 3.0F)), world, true, dress}};
   }
 };
 

@@ -26,11 +26,12 @@ class WhiteShapesScene final : public ItemScene {
   explicit WhiteShapesScene(Renderer& renderer) : ItemScene(renderer) {
     perspective_ = false;
     background_ = {0.10F, 0.12F, 0.16F, 1.0F};
-    // Two triangles that share an edge, and one alone with a long thin corner.
+    // Two that share a corner, and one alone.
     auto triangles = std::make_shared<Geometry>();
-    triangles->vertices = {white(-0.9F, 0.1F), white(-0.35F, 0.15F), white(-0.7F, 0.85F), white(-0.1F, 0.9F),
-                           white(0.15F, 0.2F), white(0.95F, 0.35F),  white(0.3F, 0.9F)};
-    triangles->indices = {0, 1, 2, 1, 3, 2, 4, 5, 6};
+    triangles->vertices = {white(-0.92F, 0.12F), white(-0.4F, 0.1F),  white(-0.75F, 0.9F),
+                           white(0.05F, 0.25F),  white(-0.2F, 0.92F), white(0.2F, 0.15F),
+                           white(0.95F, 0.4F),   white(0.35F, 0.93F)};
+    triangles->indices = {0, 1, 2, 1, 3, 4, 5, 6, 7};
     auto quads = std::make_shared<Geometry>();
     quads->primitive = Primitive::quads;
     quads->vertices = {white(-0.85F, -0.85F), white(-0.15F, -0.85F), white(-0.15F, -0.15F),

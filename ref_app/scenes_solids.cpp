@@ -22,7 +22,7 @@ std::shared_ptr<const Geometry> share(Geometry mesh) {
 class ColoredSolidsScene final : public ItemScene {
  public:
   explicit ColoredSolidsScene(Renderer& renderer) : ItemScene(renderer) {
-    camera_ = {{0, 0.9F, 6.0F}, {0, 0, 0}};
+    camera_ = {{0, 1.2F, 6.3F}, {0, 0.1F, 0}};
     background_ = {0.08F, 0.09F, 0.12F, 1.0F};
     const auto pyramid = share(
         make_pyramid({{{1, 1, 1}, {1, 0.1F, 0.1F}, {0.1F, 0.9F, 0.2F}, {0.1F, 0.3F, 1}, {1, 0.85F, 0.1F}}}));
@@ -32,8 +32,8 @@ class ColoredSolidsScene final : public ItemScene {
                                         {0.55F, 0.35F, 0.75F},
                                         {0.25F, 0.70F, 0.35F},
                                         {0.90F, 0.50F, 0.15F}}}));
-    items_ = {{pyramid, placed({-1.35F, 0, 0}, 25, 1.05F), false, kImageNeverAdded, 0.9F},
-              {cube, glm::rotate(placed({1.4F, -0.05F, 0}, 35, 0.85F), glm::radians(20.0F), kXAxis), false,
+    items_ = {{pyramid, placed({-1.3F, 0, 0}, 25, 1.0F), false, kImageNeverAdded, 0.9F},
+              {cube, glm::rotate(placed({1.3F, -0.05F, 0}, 35, 0.75F), glm::radians(20.0F), kXAxis), false,
                kImageNeverAdded, -0.7F}};
   }
 };
@@ -41,7 +41,7 @@ class ColoredSolidsScene final : public ItemScene {
 class TexturedCubeScene final : public ItemScene {
  public:
   TexturedCubeScene(Renderer& renderer, const Assets& assets) : ItemScene(renderer) {
-    camera_ = {{0, 1.6F, 4.0F}, {0, 0, 0}};
+    camera_ = {{0, 2.0F, 4.5F}, {0, -0.05F, 0}};
     background_ = {0.20F, 0.24F, 0.30F, 1.0F};
     const ImageHandle brick = images_.add(assets.brick());
     items_ = {{share(make_cube(shaded_faces())), placed({0, 0, 0}, -32, 1), true, brick, 0.6F}};
@@ -51,13 +51,13 @@ class TexturedCubeScene final : public ItemScene {
 class SolidsOnPlaneScene final : public ItemScene {
  public:
   SolidsOnPlaneScene(Renderer& renderer, const Assets& assets) : ItemScene(renderer) {
-    camera_ = {{0, 4.6F, 11.5F}, {0, 0.9F, 0}};
+    camera_ = {{0, 5.4F, 13.0F}, {0, 0.6F, 0}};
     background_ = {0.55F, 0.68F, 0.82F, 1.0F};
     const ImageHandle brick = images_.add(assets.brick());
     const ImageHandle wood = images_.add(assets.wood());
     const ImageHandle marble = images_.add(assets.marble());
     const ImageHandle checker = images_.add(assets.checker());
-    items_.push_back({share(make_plane({14, 5, 1})), glm::mat4(1.0F), true, checker});
+    items_.push_back({share(make_plane({17, 5, 1})), glm::mat4(1.0F), true, checker});
 
     const auto cube = share(make_cube(shaded_faces()));
     const auto add_cube = [&](float x, float z, float degrees, float scale, ImageHandle image) {
@@ -66,9 +66,9 @@ class SolidsOnPlaneScene final : public ItemScene {
     add_cube(-3.4F, 2.2F, 20, 0.8F, brick);
     add_cube(0.0F, 2.6F, 40, 0.75F, wood);
     add_cube(3.4F, 2.2F, -25, 0.8F, marble);
-    add_cube(-5.2F, -3.0F, -15, 1.1F, marble);
+    add_cube(-4.6F, -3.0F, -15, 1.1F, marble);
     add_cube(0.2F, -3.6F, 12, 1.2F, brick);
-    add_cube(5.4F, -3.0F, 33, 1.1F, wood);
+    add_cube(4.7F, -3.0F, 33, 1.1F, wood);
 
     // Texturing is on and the name has no image, so the pyramids show their colours.
     const auto pyramid = share(make_pyramid({{{1.0F, 0.96F, 0.85F},
@@ -81,7 +81,7 @@ class SolidsOnPlaneScene final : public ItemScene {
     };
     add_pyramid(-1.8F, 0.4F, 15, 0.9F);
     add_pyramid(1.9F, 0.3F, 50, 0.9F);
-    add_pyramid(-2.6F, -6.0F, 30, 1.3F);
+    add_pyramid(-2.5F, -6.2F, 30, 1.3F);
     add_pyramid(3.0F, -6.4F, 70, 1.3F);
     add_pyramid(0.0F, -8.5F, 5, 1.9F);
   }

@@ -42,7 +42,7 @@ class TeapotScene final : public TeapotSceneBase {
     camera_ = {{0, 4.4F, 8.6F}, {0, 1.1F, 0}};
     background_ = {0.34F, 0.40F, 0.48F, 1.0F};
     Geometry plane = make_plane({9, 2, 32});
-    darken(plane, -0.5F, -0.6F, 3.4F, 0.25F);
+    darken(plane, -0.4F, -0.4F, 4.4F, 0.1F);
     add_plane(std::move(plane), images_.add(assets.wood()));
     add_teapot(assets, {-0.15F, 0, 0}, 28, 1.0F, {0.93F, 0.90F, 0.86F});
   }
@@ -51,7 +51,7 @@ class TeapotScene final : public TeapotSceneBase {
 class NineTeapotsScene final : public TeapotSceneBase {
  public:
   NineTeapotsScene(Renderer& renderer, const Assets& assets) : TeapotSceneBase(renderer) {
-    camera_ = {{0, 9.5F, 16.5F}, {0, 0.4F, 0.4F}};
+    camera_ = {{0, 13.6F, 18.8F}, {0, -0.4F, 1.0F}};
     background_ = {0.20F, 0.24F, 0.30F, 1.0F};
     const ImageHandle checker = images_.add(assets.checker());
     const ImageHandle marble = images_.add(assets.marble());
@@ -59,9 +59,9 @@ class NineTeapotsScene final : public TeapotSceneBase {
     static const glm::vec3 kColors[9] = {{0.85F, 0.33F, 0.28F}, {0.96F, 0.96F, 0.96F}, {0.30F, 0.55F, 0.80F},
                                          {0.93F, 0.76F, 0.30F}, {0.92F, 0.90F, 0.86F}, {0.42F, 0.68F, 0.44F},
                                          {0.62F, 0.44F, 0.72F}, {1.00F, 0.98F, 0.94F}, {0.90F, 0.52F, 0.24F}};
-    Geometry plane = make_plane({13, 4, 48});
+    Geometry plane = make_plane({14, 4, 48});
     for (int i = 0; i < 9; ++i)
-      darken(plane, place(i, kSpacing).x - 0.3F, place(i, kSpacing).z - 0.35F, 2.5F, 0.3F);
+      darken(plane, place(i, kSpacing).x - 0.3F, place(i, kSpacing).z - 0.35F, 3.0F, 0.1F);
     add_plane(std::move(plane), checker);
     for (int i = 0; i < 9; ++i) {
       const bool textured = i % 3 == 1;

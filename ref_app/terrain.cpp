@@ -12,11 +12,44 @@
 namespace ref_app {
 namespace {
 
-constexpr int kQuads = 256;  // along a side of the mesh
-constexpr float kTextureRelief =
-    60;  // height of the whole range in height-map pixels, for the light on the texture
+constexpr int kQuads = 256;           // along a side of the mesh
+constexpr float kTextureRelief = 48;  // height of the whole range in map pixels, for the light on the texture
 
-// Uniform cubic B-spline: it smooths the steps of an 8-bit map away. Weights of the four neighbours, t in [0,
+// Heights in [0, 1], smoothed: a map of 8 bits has steps that light would show.
+struct HeightField {
+  int width, height;
+  std::vector<float> values;
+
+  const float* row(int y) const {
+    return &values[static_cast<size_t>(std::clamp(y, 0, height - 1)) * static_cast<size_t>(width)];
+  }
+};
+
+// One pass of 1 4 6 4 1 along x, transposing, so that two passes smooth both ways.
+HeightField smooth_and_transpose(const HeightField& in) {
+  HeightField out{in.height, in.width, std::vector<float>(in.values.size())};
+  for (int y = 0; y < in.height; ++y) {
+    const float* row = in.row(y);
+    const auto at = [&](int x) { return row[std::clamp(x, 0, in.width - 1)]; };
+    for (int x = 0; x < in.width; ++x) {
+      const float sum = at(x - 2) + at(x + 2) + 4 * (at(x - 1) + at(x + 1)) + 6 * at(x);
+      out.values[static_cast<size_t>(x) * static_cast<size_t>(in.height) + static_cast<size_t>(y)] =
+          sum * 0.0625F;
+    }
+  }
+  return out;
+}
+
+HeightField height_field(const Image& map) {
+  HeightField field{map.width, map.height, std::vector<float>(map.rgba.size() / 4)};
+  for (size_t i = 0; i < field.values.size(); ++i) {
+    field.values[i] = static_cast<float>(map.rgba[i * 4]) * (1.0F / 255.0F);
+  }
+  for (int pass = 0; pass < 4; ++pass) field = smooth_and_transpose(field);
+  return field;
+}
+
+// Uniform cubic B-spline. Weights of the four neighbours, t in [0,
 // 1).
 struct SplineWeights {
   std::array<float, 4> value, slope;
@@ -32,16 +65,15 @@ SplineWeights spline_weights(float t) {
 class SplineRow {
  public:
   // y in map pixels, 0 the first row's centre; beyond the map its edge goes on.
-  SplineRow(const Image& map, float y) : height_(static_cast<size_t>(map.width)), slope_(height_.size()) {
+  SplineRow(const HeightField& field, float y)
+      : height_(static_cast<size_t>(field.width)), slope_(height_.size()) {
     const auto cell = static_cast<int>(y + 1) - 1;  // floor for y > -1
     const SplineWeights weights = spline_weights(y - static_cast<float>(cell));
     for (int k = 0; k < 4; ++k) {
-      const int row = std::clamp(cell + k - 1, 0, map.height - 1);
-      const uint8_t* pixels = &map.rgba[static_cast<size_t>(row) * static_cast<size_t>(map.width) * 4];
+      const float* row = field.row(cell + k - 1);
       for (size_t x = 0; x < height_.size(); ++x) {
-        const float h = static_cast<float>(pixels[x * 4]) * (1.0F / 255.0F);
-        height_[x] += weights.value[static_cast<size_t>(k)] * h;
-        slope_[x] += weights.slope[static_cast<size_t>(k)] * h;
+        height_[x] += weights.value[static_cast<size_t>(k)] * row[x];
+        slope_[x] += weights.slope[static_cast<size_t>(k)] * row[x];
       }
     }
   }
@@ -69,19 +101,19 @@ class SplineRow {
 
 // x and y from 0 to 1 across the map, y up.
 float height_at(float x, float y) {
-  const float base = fractal_noise(x * 4, y * 4, 4, 5, 101);
-  const float crests = ridged_noise(x * 4, y * 4, 4, 6, 207);
-  const float where = smooth_step(0.38F, 0.72F, fractal_noise(x * 2, y * 2, 2, 3, 55));
-  return mix(0.45F * base, 0.15F * base + 0.95F * crests * crests, where);
+  const float land = fractal_noise(x * 3, y * 3, 3, 3, 105);
+  const float crests = ridged_noise(x * 4, y * 4, 4, 5, 207);
+  const float mountainous = smooth_step(0.30F, 0.75F, land);
+  return 0.60F * land + 0.75F * mountainous * crests * crests;
 }
 
 glm::vec3 ground_color(float height, float steepness, float patch) {
   const glm::vec3 meadow = glm::mix(glm::vec3(0.24F, 0.42F, 0.14F), glm::vec3(0.46F, 0.52F, 0.20F), patch);
   const glm::vec3 rock = glm::mix(glm::vec3(0.40F, 0.36F, 0.32F), glm::vec3(0.56F, 0.50F, 0.44F), patch);
   const glm::vec3 snow(0.95F, 0.97F, 1.0F);
-  const float rocky = smooth_step(0.55F, 0.95F, steepness + 0.5F * (height + 0.25F * (patch - 0.5F)));
+  const float rocky = smooth_step(0.55F, 1.05F, steepness + 0.5F * height + 0.3F * (patch - 0.5F));
   const float snowy =
-      smooth_step(0.52F, 0.66F, height + 0.10F * (patch - 0.5F)) * (1 - smooth_step(0.9F, 1.6F, steepness));
+      smooth_step(0.42F, 0.60F, height + 0.12F * (patch - 0.5F)) * (1 - smooth_step(1.0F, 1.7F, steepness));
   return glm::mix(glm::mix(meadow, rock, rocky), snow, snowy);
 }
 
@@ -99,7 +131,9 @@ Image make_height_map() {
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
   Image map{kHeightMapSize, kHeightMapSize, std::vector<uint8_t>(kPixels * 4)};
   for (size_t i = 0; i < kPixels; ++i) {
-    const uint8_t level = to_byte((heights[i] - *low) / (*high - *low));
+    // Valleys flatten out, peaks stay.
+    const float range = (heights[i] - *low) / (*high - *low);
+    const uint8_t level = to_byte(range * mix(0.45F, 1.0F, range));
     std::fill_n(&map.rgba[i * 4], 3, level);
     map.rgba[i * 4 + 3] = 255;
   }
@@ -110,11 +144,12 @@ Image make_terrain_texture(const Image& heights) {
   constexpr int kSize = kTerrainTextureSize;
   Image image{kSize, kSize, {}};
   image.rgba.reserve(size_t{kSize} * kSize * 4);
+  const HeightField field = height_field(heights);
   const glm::vec3 light = light_direction();
   const float map_x = static_cast<float>(heights.width) / kSize,
               map_y = static_cast<float>(heights.height) / kSize;
   for (int y = 0; y < kSize; ++y) {
-    const SplineRow row(heights, (static_cast<float>(y) + 0.5F) * map_y - 0.5F);
+    const SplineRow row(field, (static_cast<float>(y) + 0.5F) * map_y - 0.5F);
     for (int x = 0; x < kSize; ++x) {
       const SplineRow::Sample h = row.at((static_cast<float>(x) + 0.5F) * map_x - 0.5F);
       // t grows towards -z, so the slope along the map's y counts the other way in z.
@@ -131,13 +166,14 @@ Image make_terrain_texture(const Image& heights) {
 }
 
 Geometry make_terrain(const Image& heights, float height) {
+  const HeightField field = height_field(heights);
   Geometry mesh;
   constexpr uint32_t kSide = kQuads + 1;
   mesh.vertices.reserve(size_t{kSide} * kSide);
   mesh.indices.reserve(size_t{kTerrainTriangles} * 3);
   for (uint32_t row = 0; row < kSide; ++row) {
     const float v = static_cast<float>(row) / kQuads;
-    const SplineRow line(heights, v * static_cast<float>(heights.height) - 0.5F);
+    const SplineRow line(field, v * static_cast<float>(heights.height) - 0.5F);
     for (uint32_t column = 0; column < kSide; ++column) {
       const float u = static_cast<float>(column) / kQuads;
       const float y = height * line.at(u * static_cast<float>(heights.width) - 0.5F).height;

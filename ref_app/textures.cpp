@@ -55,9 +55,9 @@ Image make_wood() {
     const auto plank = static_cast<uint32_t>(x / kPlank);
     const float gap = smooth_step(0.5F, 3.5F, edge_distance(x, kPlank));
     // Grain: rings cut lengthwise, so they run long in y and are bent by a slow noise of the plank's own.
-    const float bend = value_noise(x / 32, y / 64, 8, 4, 40 + plank);
-    const float rings = smooth_wave(x / 21.0F + 2.2F * bend + 0.37F * static_cast<float>(plank));
-    const float fibre = value_noise(x / 6, y / 64, 43, 4, 60) - 0.5F;
+    const float bend = gradient_noise(x / 32, y / 64, 8, 4, 40 + plank);
+    const float rings = smooth_wave(x / 21.0F + 1.5F * bend + 0.37F * static_cast<float>(plank));
+    const float fibre = gradient_noise(x / 6, y / 64, 43, 4, 60) - 0.5F;
     const float tone = 0.86F + 0.24F * hash_unit(plank, 7, 5);
     const glm::vec3 wood = glm::mix(glm::vec3(0.72F, 0.47F, 0.25F), glm::vec3(0.50F, 0.29F, 0.13F), rings);
     return wood * (tone + 0.12F * fibre) * mix(0.35F, 1.0F, gap);
@@ -71,7 +71,7 @@ Image make_marble() {
     const float thin = vein * vein * vein;
     const float cloud = fractal_noise(x / 128, y / 128, 2, 3, 33);
     const glm::vec3 stone = glm::mix(glm::vec3(0.88F, 0.90F, 0.92F), glm::vec3(0.98F, 0.96F, 0.92F), cloud);
-    return glm::mix(stone, glm::vec3(0.24F, 0.34F, 0.42F), 0.75F * thin);
+    return glm::mix(stone, glm::vec3(0.24F, 0.34F, 0.42F), 0.6F * thin);
   });
 }
 
