@@ -1,8 +1,8 @@
 // Instruction sets: one place that chooses, and the names the per-ISA sources are compiled under.
 //
-// A source with SIMD in it is compiled once a level by Highway's foreach_target.h. It exports one function table a
-// level; raster/isa.cpp's level says which to take:
-//   HWY_ONCE part:  const VertexKernels& vertex_kernels() { HALFSPACE_SELECT(kernels) }
+// A source with SIMD in it is compiled once a level by Highway's foreach_target.h. raster/isa.cpp says which
+// level's function to take:
+//   HWY_ONCE part:  ShadeFunction select_shade() { HALFSPACE_SELECT_FUNCTION(ShadeVertices) }
 #pragma once
 
 namespace halfspace::raster {
@@ -14,27 +14,24 @@ Isa current_isa();
 
 }  // namespace halfspace::raster
 
-// In a function after the HWY_ONCE guard: returns N_<level>::NAME() for the level in use.
+// The body of a function after the HWY_ONCE guard: returns N_<level>::EXPRESSION for the level in use, say the value
+// of a call (`ShadeVertices()`) or, with HALFSPACE_SELECT_FUNCTION, the address of a function.
 #if defined(__x86_64__)
-#define HALFSPACE_SELECT(NAME)                    \
-  switch (::halfspace::raster::current_isa()) {   \
-    case ::halfspace::raster::Isa::avx512:        \
-      return N_AVX3::NAME();                      \
-    case ::halfspace::raster::Isa::avx2:          \
-      return N_AVX2::NAME();                      \
-    case ::halfspace::raster::Isa::sse4:          \
-      return N_SSE4::NAME();                      \
-    default:                                      \
-      return N_SCALAR::NAME();                    \
+#define HALFSPACE_SELECT_LEVEL(PREFIX, EXPRESSION) \
+  switch (::halfspace::raster::current_isa()) {    \
+    case ::halfspace::raster::Isa::avx512:         \
+      return PREFIX N_AVX3::EXPRESSION;            \
+    case ::halfspace::raster::Isa::avx2:           \
+      return PREFIX N_AVX2::EXPRESSION;            \
+    case ::halfspace::raster::Isa::sse4:           \
+      return PREFIX N_SSE4::EXPRESSION;            \
+    default:                                       \
+      return PREFIX N_SCALAR::EXPRESSION;          \
   }
 #elif defined(__aarch64__)
-#define HALFSPACE_SELECT(NAME)                    \
-  switch (::halfspace::raster::current_isa()) {   \
-    case ::halfspace::raster::Isa::neon:          \
-      return N_NEON::NAME();                      \
-    default:                                      \
-      return N_SCALAR::NAME();                    \
-  }
+#define HALFSPACE_SELECT_LEVEL(PREFIX, EXPRESSION) return PREFIX N_NEON::EXPRESSION;
 #else
-#define HALFSPACE_SELECT(NAME) return N_SCALAR::NAME();
+#define HALFSPACE_SELECT_LEVEL(PREFIX, EXPRESSION) return PREFIX N_SCALAR::EXPRESSION;
 #endif
+#define HALFSPACE_SELECT(NAME) HALFSPACE_SELECT_LEVEL(, NAME())
+#define HALFSPACE_SELECT_FUNCTION(NAME) HALFSPACE_SELECT_LEVEL(&, NAME)

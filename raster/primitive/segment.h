@@ -45,11 +45,14 @@ struct PrimitiveRef {
 };
 static_assert(sizeof(PrimitiveRef) == 16);
 
+struct PipelineProgram;  // raster/fragment/program.h
+
 // A draw as the tiles see it. Lives until the pass is finished.
 struct DrawRecord {
   std::shared_ptr<const DrawState> state;
   ShadedVertices vertices;
-  Rect bounds;  // viewport-independent: framebuffer cut by the scissor; fragments outside are never made
+  Rect bounds;  // framebuffer cut by scissor and viewport; fragments outside are never made
+  const PipelineProgram* program = nullptr;  // what its fragments go through
 };
 
 // Primitives of one stretch of the command stream, in order, with their bins. Filled by one thread at a time.

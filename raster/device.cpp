@@ -1,0 +1,271 @@
+#include "raster/api/device.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <thread>
+#include <vector>
+
+#include "raster/arena.h"
+#include "raster/fragment/program.h"
+#include "raster/primitive/assembly.h"
+#include "raster/surface/clear.h"
+#include "raster/surface/resolve.h"
+#include "raster/thread_pool.h"
+#include "raster/tile/tile_worker.h"
+#include "raster/vertex/vertex_stage.h"
+
+namespace halfspace::raster {
+namespace {
+
+// Work kept back before it is executed, so that memory stays bounded whatever a frame draws.
+constexpr size_t kMaxPendingBytes = size_t{6} << 20;    // shaded vertices
+constexpr size_t kMaxPendingPrimitives = size_t{1} << 18;
+constexpr uint32_t kParallelPrimitives = 8192;  // a draw of fewer is not split over threads
+constexpr uint32_t kVerticesPerTask = 4096;
+
+int thread_count(const DeviceOptions& options) {
+  if (options.threads > 0) return std::min(options.threads, 256);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const char* wish = std::getenv("HALFSPACE_THREADS");
+  if (wish == nullptr || *wish == '\0') return cores;
+  char* end = nullptr;
+  const long n = std::strtol(wish, &end, 10);
+  if (*end == '\0' && n >= 1 && n <= 256) return static_cast<int>(n);
+  std::fprintf(stderr, "halfspace: HALFSPACE_THREADS=%s is not a number from 1 to 256; using %d\n", wish, cores);
+  return cores;
+}
+
+bool same_layout(const VertexLayout& a, const VertexLayout& b) {
+  return a.attribute_count == b.attribute_count && a.color == b.color && a.tex_coord == b.tex_coord &&
+         a.projective == b.projective && a.constant_color == b.constant_color;
+}
+
+Rect draw_bounds(const DrawState& state, const Framebuffer::Impl& fb) {
+  const Viewport& v = state.viewport;
+  Rect bounds = intersect({0, 0, fb.width, fb.height}, {v.x, v.y, v.x + v.width, v.y + v.height});
+  return state.raster.scissor_test ? intersect(bounds, state.raster.scissor) : bounds;
+}
+
+}  // namespace
+
+struct Device::Impl {
+  explicit Impl(const DeviceOptions& options) : pool(thread_count(options)) {}
+
+  ThreadPool pool;
+  Framebuffer::Impl* target = nullptr;
+  DeviceStatistics statistics;
+
+  // The pass so far. Segments, and what they hold, are reused from pass to pass.
+  std::vector<std::unique_ptr<Segment>> segments;
+  std::vector<Segment*> pending;
+  bool last_is_open = false;  // the last pending segment takes further small draws
+  std::deque<DrawRecord> draws;
+  std::deque<PipelineProgram> programs;
+  std::shared_ptr<const DrawState> program_state;
+  VertexLayout program_layout;
+  Arena arena;
+  std::vector<uint16_t> outcodes;
+  std::vector<ClipVertex> clip;
+
+  Segment& new_segment();
+  Segment& open_segment();
+  const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout);
+  void shade(const DrawState& state, const VertexBatch& batch, ShadedVertices& vertices);
+  void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
+  void draw(const DrawPacket& packet);
+  void execute(const LinearImage* image);
+  void discard();
+};
+
+Segment& Device::Impl::new_segment() {
+  if (pending.size() == segments.size()) segments.push_back(std::make_unique<Segment>());
+  Segment& segment = *segments[pending.size()];
+  segment.reset(target->tiles_x, target->tiles_y);
+  pending.push_back(&segment);
+  last_is_open = false;
+  return segment;
+}
+
+Segment& Device::Impl::open_segment() {
+  if (!pending.empty() && last_is_open) return *pending.back();
+  Segment& segment = new_segment();
+  last_is_open = true;
+  return segment;
+}
+
+const PipelineProgram& Device::Impl::program_for(const std::shared_ptr<const DrawState>& state,
+                                                 const VertexLayout& layout) {
+  if (programs.empty() || program_state != state || !same_layout(program_layout, layout)) {
+    programs.push_back(build_program(*state, layout, target->format));
+    program_state = state;
+    program_layout = layout;
+  }
+  return programs.back();
+}
+
+void Device::Impl::shade(const DrawState& state, const VertexBatch& batch, ShadedVertices& vertices) {
+  vertices.count = batch.count;
+  vertices.records = arena.allocate(batch.count * vertices.layout.stride());
+  vertices.outcodes.swap(outcodes);
+  vertices.clip.swap(clip);
+  if (vertices.outcodes.size() < batch.count) {
+    vertices.outcodes.resize(batch.count);
+    vertices.clip.resize(batch.count);
+  }
+  const uint32_t tasks = (batch.count + kVerticesPerTask - 1) / kVerticesPerTask;
+  pool.run(tasks, [&](uint32_t task, int) {
+    const uint32_t first = task * kVerticesPerTask;
+    shade_vertices(state, batch, first, std::min(kVerticesPerTask, batch.count - first), vertices);
+  });
+}
+
+void Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives) {
+  if (pool.size() == 1 || primitives < kParallelPrimitives) {
+    assemble(record, packet.primitive, packet.indices, packet.index_count, 0, primitives, open_segment());
+    return;
+  }
+  const auto parts = static_cast<uint32_t>(pool.size());
+  const size_t first_segment = pending.size();
+  for (uint32_t i = 0; i < parts; ++i) new_segment();
+  const uint32_t each = (primitives + parts - 1) / parts;
+  pool.run(parts, [&](uint32_t part, int) {
+    const uint32_t first = std::min(part * each, primitives);
+    assemble(record, packet.primitive, packet.indices, packet.index_count, first,
+             std::min(each, primitives - first), *pending[first_segment + part]);
+  });
+}
+
+void Device::Impl::draw(const DrawPacket& packet) {
+  const uint32_t primitives = primitive_count(packet.primitive, packet.index_count);
+  if (target == nullptr || primitives == 0 || packet.batch.count == 0) return;
+  const DrawState& state = *packet.state;
+  const Rect bounds = draw_bounds(state, *target);
+  const VertexLayout layout = choose_layout(state, packet.batch);
+  const PipelineProgram& program = program_for(packet.state, layout);
+  ++statistics.draws;
+  statistics.vertices += packet.batch.count;
+  if (program.draws_nothing || bounds.empty()) return;
+  if (program.writes_color) target->need_color();
+  if (program.reads_depth) target->need_depth();
+  DrawRecord& record = draws.emplace_back();
+  record.state = packet.state;
+  record.bounds = bounds;
+  record.program = &program;
+  record.vertices.layout = layout;
+  shade(state, packet.batch, record.vertices);
+  assemble_draw(record, packet, primitives);
+  // Clip coordinates and outcodes have done their work; the next draw takes their memory.
+  record.vertices.outcodes.swap(outcodes);
+  record.vertices.clip.swap(clip);
+  size_t pending_primitives = 0;
+  for (const Segment* segment : pending) pending_primitives += segment->primitives.size();
+  if (arena.bytes_in_use() > kMaxPendingBytes || pending_primitives > kMaxPendingPrimitives) execute(nullptr);
+}
+
+void Device::Impl::discard() {
+  for (const Segment* segment : pending) {
+    statistics.triangles += segment->triangles_in;
+    statistics.culled += segment->culled;
+    statistics.clipped += segment->clipped;
+  }
+  pending.clear();
+  last_is_open = false;
+  draws.clear();
+  programs.clear();
+  program_state.reset();
+  arena.reset();
+}
+
+void Device::Impl::execute(const LinearImage* image) {
+  if (target == nullptr) return;
+  std::vector<uint32_t> tiles;
+  if (image != nullptr) {
+    tiles.resize(target->tiles.size());
+    for (uint32_t i = 0; i < tiles.size(); ++i) tiles[i] = i;
+  } else {
+    for (const Segment* segment : pending) tiles.insert(tiles.end(), segment->touched.begin(), segment->touched.end());
+    std::sort(tiles.begin(), tiles.end());
+    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+  }
+  if (!pending.empty()) ++statistics.passes;
+  std::vector<TileStatistics> counts(static_cast<size_t>(pool.size()));
+  pool.run(static_cast<uint32_t>(tiles.size()), [&](uint32_t i, int worker) {
+    TileStatistics local;
+    if (!pending.empty()) run_tile(pending, *target, tiles[i], local);
+    if (image != nullptr) resolve_tile(*target, tiles[i], *image);
+    counts[static_cast<size_t>(worker)].fragments += local.fragments;
+    counts[static_cast<size_t>(worker)].double_fragments += local.double_fragments;
+  });
+  for (const TileStatistics& count : counts) {
+    statistics.fragments += count.fragments;
+    statistics.double_fragments += count.double_fragments;
+  }
+  discard();
+}
+
+Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Device::~Device() = default;
+
+void Device::begin_pass(Framebuffer* target) {
+  Framebuffer::Impl* next = target != nullptr ? &target->impl() : nullptr;
+  if (next == impl_->target) return;
+  impl_->execute(nullptr);
+  impl_->target = next;
+}
+
+void Device::clear(const ClearCommand& command) {
+  if (impl_->target == nullptr) return;
+  if (command.color && command.depth && clears_everything(*impl_->target, command)) impl_->discard();
+  else impl_->execute(nullptr);
+  raster::clear(*impl_->target, command);
+}
+
+void Device::draw(const DrawPacket& packet) { impl_->draw(packet); }
+void Device::finish(const LinearImage* image) { impl_->execute(image); }
+const DeviceStatistics& Device::statistics() const { return impl_->statistics; }
+
+namespace {
+
+// Calls read(x0, x1, y, out) for each row of `rect` that the framebuffer has.
+template <class T, class Read>
+void read_rows(const Framebuffer::Impl& fb, const Rect& rect, size_t channels, T* out, Read read) {
+  const Rect inside = intersect(rect, {0, 0, fb.width, fb.height});
+  if (inside.empty()) return;
+  const auto width = static_cast<size_t>(rect.x1 - rect.x0);
+  for (int y = inside.y0; y < inside.y1; ++y) {
+    const size_t at = static_cast<size_t>(y - rect.y0) * width + static_cast<size_t>(inside.x0 - rect.x0);
+    read(inside.x0, inside.x1, y, out + at * channels);
+  }
+}
+
+}  // namespace
+
+void Device::read_color(const Rect& rect, uint8_t* out) {
+  if (impl_->target == nullptr) return;
+  finish();
+  const Framebuffer::Impl& fb = *impl_->target;
+  std::vector<uint32_t> row(static_cast<size_t>(fb.width));
+  read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, uint8_t* to) {
+    read_row_rgba8(fb, x0, x1, y, row.data());
+    std::memcpy(to, row.data(), static_cast<size_t>(x1 - x0) * 4);
+  });
+}
+
+void Device::read_color_float(const Rect& rect, float* out) {
+  if (impl_->target == nullptr) return;
+  finish();
+  const Framebuffer::Impl& fb = *impl_->target;
+  read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, float* to) { read_row_float(fb, x0, x1, y, to); });
+}
+
+void Device::read_depth(const Rect& rect, uint32_t* out) {
+  if (impl_->target == nullptr) return;
+  finish();
+  const Framebuffer::Impl& fb = *impl_->target;
+  read_rows(fb, rect, 1, out, [&](int x0, int x1, int y, uint32_t* to) { read_row_depth(fb, x0, x1, y, to); });
+}
+
+}  // namespace halfspace::raster

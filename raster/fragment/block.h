@@ -1,0 +1,53 @@
+// What a fragment program works on: one primitive on one 8x8 block.
+#pragma once
+
+#include <cstdint>
+
+#include "raster/api/draw_state.h"
+#include "raster/surface/framebuffer.h"
+#include "raster/tile/setup_batch.h"
+
+namespace halfspace::raster {
+
+// A texture level as the samplers read it: texel (i, j) at texels[(j + 1) * pitch + i + 1], -1 <= i <= width.
+struct LevelRef {
+  const uint32_t* texels;
+  int32_t pitch;
+  int32_t width_i, height_i;
+  float width, height;
+};
+
+// What holds for all fragments of a draw; values only, the code is in the program's stage list.
+struct FragmentParams {
+  LevelRef levels[kMaxTextureLevels];
+  int level_count = 0;
+  Sampler sampler;
+  float magnify_below = 0;  // lambda at or under which mag is used: 0 or 0.5 (spec 3.8.9)
+  int color_plane = 0;      // first of four planes
+  int tex_plane = 0;        // s, t [, q]
+  float constant_color[4] = {255, 255, 255, 255};
+  float env_color[4] = {};   // 0..255
+  float alpha_reference = 0;  // 0..255
+  CompareFunc alpha_func = CompareFunc::always;
+  BlendFactor blend_src = BlendFactor::one, blend_dst = BlendFactor::zero;
+  uint32_t color_mask = ~0u;  // bytes to write, as packed
+};
+
+// Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded.
+enum Slot { kR, kG, kB, kA, kS, kT, kTexR, kTexG, kTexB, kTexA, kLambda, kSlotCount };
+
+struct alignas(64) BlockContext {
+  float slot[kSlotCount][kBlockPixels];
+  const FragmentParams* params;
+  const SetupBatch* setup;
+  int lane;               // of the batch
+  double dx, dy;          // centre of the block's lowest-left pixel minus the anchor
+  uint64_t live;          // bit (y % 8) * 8 + x % 8
+  uint32_t* depth;        // the block's 64 pixels
+  uint32_t* color;        // rgba8
+  float* color_planes;    // rgba32f
+};
+
+using BlockFunction = void (*)(BlockContext&);
+
+}  // namespace halfspace::raster

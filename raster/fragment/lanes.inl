@@ -1,0 +1,104 @@
+// Vectors and the group of lanes a stage works on. Compiled once per ISA level, inside its namespace.
+//
+// A group is kLanes neighbouring pixels of one row of the block (a whole row of 8, or a part of it on narrower
+// machines), so a value at a pixel never depends on how wide the machine is.
+
+using DF = hn::CappedTag<float, 8>;
+using DI = hn::RebindToSigned<DF>;
+using DU = hn::RebindToUnsigned<DF>;
+using VF = hn::Vec<DF>;
+using VI = hn::Vec<DI>;
+using VU = hn::Vec<DU>;
+using MF = hn::Mask<DF>;
+inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(DF()));
+
+// Doubles of a group come in one or two vectors.
+using DD = hn::CappedTag<double, 8>;
+inline constexpr int kDoubleLanes = static_cast<int>(hn::MaxLanes(DD()));
+inline constexpr int kDoubleParts = kLanes / kDoubleLanes;
+struct VD {
+  hn::Vec<DD> part[kDoubleParts];
+};
+
+template <class To>
+HWY_INLINE hn::Vec<To> DemoteGroup(To d, const VD& v) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (kDoubleParts == 2) {
+    const hn::Half<To> half;
+    return hn::Combine(d, hn::DemoteTo(half, v.part[1]), hn::DemoteTo(half, v.part[0]));
+  } else
+#endif
+  {
+    return hn::DemoteTo(d, v.part[0]);
+  }
+}
+
+// What the stages of a fused kernel hand on in registers.
+struct Lanes {
+  VF slot[kSlotCount];
+  MF live;
+};
+
+HWY_INLINE MF LoadLive(const BlockContext& c, int i) {
+  const auto bits = static_cast<uint8_t>(c.live >> i);
+#if HWY_TARGET == HWY_SCALAR
+  return hn::MaskFromVec(hn::BitCast(DF(), hn::Set(DU(), (bits & 1) != 0 ? ~0u : 0u)));
+#else
+  return hn::LoadMaskBits(DF(), &bits);
+#endif
+}
+
+HWY_INLINE unsigned MaskBits(MF mask) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::AllFalse(DF(), mask) ? 0u : 1u;
+#else
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(DF(), mask, bits);
+  return bits[0] & ((1u << kLanes) - 1);
+#endif
+}
+
+HWY_INLINE void StoreLive(BlockContext& c, int i, MF mask) {
+  const uint64_t field = ((uint64_t{1} << kLanes) - 1) << i;
+  c.live = (c.live & ~field) | (uint64_t{MaskBits(mask)} << i);
+}
+
+HWY_INLINE bool GroupIsLive(const BlockContext& c, int i) {
+  return ((c.live >> i) & ((uint64_t{1} << kLanes) - 1)) != 0;
+}
+
+template <CompareFunc F, class V>
+HWY_INLINE auto Compare(V a, V b) {
+  if constexpr (F == CompareFunc::less) return hn::Lt(a, b);
+  if constexpr (F == CompareFunc::equal) return hn::Eq(a, b);
+  if constexpr (F == CompareFunc::less_equal) return hn::Not(hn::Gt(a, b));
+  if constexpr (F == CompareFunc::greater) return hn::Gt(a, b);
+  if constexpr (F == CompareFunc::not_equal) return hn::Ne(a, b);
+  if constexpr (F == CompareFunc::greater_equal) return hn::Not(hn::Lt(a, b));
+  if constexpr (F == CompareFunc::always) return hn::Eq(a, a);
+  if constexpr (F == CompareFunc::never) return hn::Ne(a, a);
+}
+
+// --- planes at the pixels of a group: (f0 + dfdy * dy) + dfdx * dx, always in this order.
+
+HWY_INLINE VF PlaneAt(const BlockContext& c, int plane, int i) {
+  const int k = c.lane;
+  const SetupBatch& s = *c.setup;
+  const float dy = static_cast<float>(c.dy) + static_cast<float>(i / kBlockSize);
+  const float row = s.f0_f[plane][k] + s.dfdy_f[plane][k] * dy;
+  const VF dx = hn::Iota(DF(), static_cast<float>(c.dx) + static_cast<float>(i % kBlockSize));
+  return hn::Add(hn::Set(DF(), row), hn::Mul(hn::Set(DF(), s.dfdx_f[plane][k]), dx));
+}
+
+HWY_INLINE VD PlaneAtDouble(const BlockContext& c, int plane, int i) {
+  const int k = c.lane;
+  const SetupBatch& s = *c.setup;
+  const double row = s.f0[plane][k] + s.dfdy[plane][k] * (c.dy + i / kBlockSize);
+  VD v;
+  for (int p = 0; p < kDoubleParts; ++p) {
+    const auto dx = hn::Iota(DD(), c.dx + (i % kBlockSize + p * kDoubleLanes));
+    v.part[p] = hn::Add(hn::Set(DD(), row), hn::Mul(hn::Set(DD(), s.dfdx[plane][k]), dx));
+  }
+  return v;
+}
+

@@ -1,0 +1,193 @@
+#include "raster/fragment/program.h"
+
+#include <algorithm>
+
+#include "raster/texture/level.h"
+
+namespace halfspace::raster {
+namespace {
+
+StageId depth_stage(const DepthState& depth) {
+  using enum StageId;
+  constexpr StageId kWriting[] = {depth_never,   depth_less,      depth_equal,         depth_less_equal,
+                                  depth_greater, depth_not_equal, depth_greater_equal, depth_always};
+  constexpr StageId kReadOnly[] = {depth_never,
+                                   depth_less_readonly,
+                                   depth_equal_readonly,
+                                   depth_less_equal_readonly,
+                                   depth_greater_readonly,
+                                   depth_not_equal_readonly,
+                                   depth_greater_equal_readonly,
+                                   depth_always};
+  return (depth.write ? kWriting : kReadOnly)[static_cast<size_t>(depth.func)];
+}
+
+// A depth test that lets everything through and stores nothing is no stage at all.
+bool needs_depth(const DepthState& depth) {
+  return depth.test && !(depth.func == CompareFunc::always && !depth.write);
+}
+
+bool needs_alpha_test(const AlphaTestState& test) { return test.enabled && test.func != CompareFunc::always; }
+
+bool blends(const BlendState& blend) {
+  return blend.enabled && !(blend.src == BlendFactor::one && blend.dst == BlendFactor::zero);
+}
+
+StageId color_stage(const DrawState& state, const VertexLayout& layout, unsigned variant) {
+  using enum StageId;
+  if (layout.color < 0) return color_constant;
+  if (state.raster.flat_shading) return color_flat;
+  constexpr StageId kSmooth[kVariantCount] = {color_perspective, color_affine, color_perspective_double,
+                                              color_affine_double};
+  return kSmooth[variant];
+}
+
+StageId coord_stage(const VertexLayout& layout, unsigned variant) {
+  using enum StageId;
+  if (layout.projective) return (variant & kDouble) != 0 ? coord_projective_double : coord_projective;
+  constexpr StageId kCoord[kVariantCount] = {coord_perspective, coord_affine, coord_perspective_double,
+                                             coord_affine_double};
+  return kCoord[variant];
+}
+
+// Without mip levels and with one filter for both directions, lambda decides nothing.
+bool needs_lambda(const TextureView& view) {
+  return (view.sampler.mip != MipMode::none && view.level_count > 1) || view.sampler.mag != view.sampler.min ||
+         view.sampler.mip == MipMode::nearest;
+}
+
+StageId sample_stage(const TextureView& view, Accuracy accuracy) {
+  using enum StageId;
+  if (needs_lambda(view)) return sample_levels;
+  if (view.sampler.mag == Filter::nearest) return sample_nearest;
+  if (accuracy == Accuracy::draft) return sample_linear_draft;
+  const bool repeat = view.sampler.wrap_s == Wrap::repeat && view.sampler.wrap_t == Wrap::repeat;
+  return repeat ? sample_linear_repeat : sample_linear;
+}
+
+StageId env_stage(EnvMode mode, BaseFormat format) {
+  using enum StageId;
+  const bool rgb = format != BaseFormat::alpha;
+  const bool alpha = format != BaseFormat::rgb && format != BaseFormat::luminance;
+  auto pick = [&](StageId both, StageId rgb_only, StageId alpha_only) {
+    return rgb ? (alpha ? both : rgb_only) : alpha_only;
+  };
+  switch (mode) {
+    case EnvMode::modulate: return pick(modulate_rgba, modulate_rgb, modulate_alpha);
+    case EnvMode::replace: return pick(replace_rgba, replace_rgb, replace_alpha);
+    case EnvMode::decal: return alpha ? decal_rgba : decal_rgb;
+    case EnvMode::blend: break;
+  }
+  return format == BaseFormat::intensity ? env_blend_intensity : pick(env_blend_rgba, env_blend_rgb, env_blend_alpha);
+}
+
+bool is_white(const Color& c) { return c.r == 1 && c.g == 1 && c.b == 1 && c.a == 1; }
+
+// GL_MODULATE by constant white is GL_REPLACE; replacing everything needs no primary colour.
+void add_texture_stages(const DrawState& state, const VertexLayout& layout, unsigned variant, StageList& list) {
+  const TextureView& view = *state.texture.view;
+  list.add(coord_stage(layout, variant));
+  if (needs_lambda(view)) list.add(layout.projective ? StageId::lambda_projective : StageId::lambda);
+  list.add(sample_stage(view, state.accuracy));
+  const bool white = layout.color < 0 && is_white(layout.constant_color);
+  const EnvMode mode = white && state.texture.env == EnvMode::modulate ? EnvMode::replace : state.texture.env;
+  const StageId env = env_stage(mode, view.base_format);
+  if (env != StageId::replace_rgba) list.add(color_stage(state, layout, variant));
+  list.add(env);
+}
+
+uint32_t byte_mask(const ColorMask& mask) {
+  return (mask.r ? 0xffu : 0u) | (mask.g ? 0xff00u : 0u) | (mask.b ? 0xff0000u : 0u) | (mask.a ? 0xff000000u : 0u);
+}
+
+void scale_color(const Color& color, float* out) {
+  out[0] = color.r * 255.0f;
+  out[1] = color.g * 255.0f;
+  out[2] = color.b * 255.0f;
+  out[3] = color.a * 255.0f;
+}
+
+void set_texture_params(const DrawState& state, FragmentParams& params) {
+  const TextureView& view = *state.texture.view;
+  params.level_count = view.sampler.mip == MipMode::none ? 1 : view.level_count;
+  params.sampler = view.sampler;
+  for (int i = 0; i < params.level_count; ++i) {
+    const TextureLevel& level = *view.levels[static_cast<size_t>(i)];
+    params.levels[i] = {level.base,   level.pitch, level.width, level.height, static_cast<float>(level.width),
+                        static_cast<float>(level.height)};
+  }
+  // Spec 3.8.9: c = 0.5 if mag is LINEAR and min is NEAREST_MIPMAP_*, else 0.
+  const bool half = view.sampler.mag == Filter::linear && view.sampler.min == Filter::nearest &&
+                    view.sampler.mip != MipMode::none;
+  params.magnify_below = half ? 0.5f : 0.0f;
+  scale_color(state.texture.env_color, params.env_color);
+}
+
+FragmentParams make_params(const DrawState& state, const VertexLayout& layout) {
+  FragmentParams params;
+  params.color_plane = 2 + layout.color;
+  params.tex_plane = 2 + layout.tex_coord;
+  scale_color(layout.constant_color, params.constant_color);
+  params.alpha_func = state.alpha_test.func;
+  params.alpha_reference = std::clamp(state.alpha_test.reference, 0.0f, 1.0f) * 255.0f;
+  params.blend_src = state.blend.src;
+  params.blend_dst = state.blend.dst;
+  params.color_mask = byte_mask(state.color_mask);
+  if (state.texture.view != nullptr) set_texture_params(state, params);
+  return params;
+}
+
+BlockProgram make_block_program(const StageList& list) {
+  BlockProgram program;
+  program.fused = fused_function(list);
+  program.count = list.count;
+  for (int i = 0; i < list.count; ++i)
+    program.stages[static_cast<size_t>(i)] = stage_function(list.ids[static_cast<size_t>(i)]);
+  return program;
+}
+
+}  // namespace
+
+StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorFormat format, unsigned variant) {
+  StageList list;
+  const bool alpha_test = needs_alpha_test(state.alpha_test);
+  const bool depth = needs_depth(state.depth);
+  const bool writes_color = !state.color_mask.none();
+  if (depth && !alpha_test) list.add(depth_stage(state.depth));
+  if (writes_color || alpha_test) {
+    if (state.texture.view != nullptr && layout.tex_coord >= 0)
+      add_texture_stages(state, layout, variant, list);
+    else
+      list.add(color_stage(state, layout, variant));
+  }
+  if (alpha_test) {
+    list.add(StageId::alpha_test);
+    if (depth) list.add(depth_stage(state.depth));
+  }
+  if (!writes_color) return list;
+  const bool rgba8 = format == ColorFormat::rgba8;
+  if (blends(state.blend)) list.add(rgba8 ? StageId::blend_rgba8 : StageId::blend_rgba32f);
+  if (!rgba8) list.add(StageId::write_rgba32f);
+  else list.add(state.color_mask.all() ? StageId::write_rgba8 : StageId::write_rgba8_masked);
+  return list;
+}
+
+PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format) {
+  PipelineProgram program;
+  program.params = make_params(state, layout);
+  for (unsigned variant = 0; variant < kVariantCount; ++variant)
+    program.variants[variant] = make_block_program(list_stages(state, layout, format, variant));
+  const bool depth = needs_depth(state.depth);
+  const CompareFunc func = state.depth.func;
+  const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
+  program.writes_color = !state.color_mask.none();
+  program.reads_depth = depth;
+  program.writes_depth = depth && state.depth.write;
+  program.rejects_deeper = depth && lowers;
+  program.depth_may_grow = program.writes_depth && !lowers && func != CompareFunc::equal && func != CompareFunc::never;
+  program.depth_pass_lowers = program.writes_depth && lowers && !needs_alpha_test(state.alpha_test);
+  program.draws_nothing = (depth && func == CompareFunc::never) || (!program.writes_color && !program.writes_depth);
+  return program;
+}
+
+}  // namespace halfspace::raster

@@ -1,0 +1,62 @@
+// From a draw's state to the list of stages its fragments go through.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "raster/fragment/block.h"
+#include "raster/primitive/segment.h"
+
+namespace halfspace::raster {
+
+enum class StageId : uint8_t {
+#define STAGE(id, body, reads, writes) id,
+#include "raster/fragment/stages.def"
+#undef STAGE
+  count
+};
+
+inline constexpr int kMaxStages = 12;
+
+// The stages in the order they run. Two equal lists compute the same thing with the same code.
+struct StageList {
+  std::array<StageId, kMaxStages> ids{};
+  int count = 0;
+  void add(StageId id) { ids[static_cast<size_t>(count++)] = id; }
+  bool operator==(const StageList&) const = default;
+};
+
+// One way to run a block: either a fused kernel, or the stages one after another.
+struct BlockProgram {
+  BlockFunction fused = nullptr;
+  std::array<BlockFunction, kMaxStages> stages{};
+  int count = 0;
+  void run(BlockContext& block) const {
+    if (fused != nullptr) {
+      fused(block);
+      return;
+    }
+    for (int i = 0; i < count && block.live != 0; ++i) stages[static_cast<size_t>(i)](block);
+  }
+};
+
+struct PipelineProgram {
+  BlockProgram variants[kVariantCount];
+  FragmentParams params;
+  bool reads_depth = false, writes_depth = false, writes_color = false;
+  bool rejects_deeper = false;  // depth test is LESS or LEQUAL and runs first: coarse z may drop a block
+  bool depth_may_grow = false;  // the depth function can store a larger value
+  bool depth_pass_lowers = false;  // every pixel of a full block ends at or before the primitive
+  bool draws_nothing = false;
+};
+
+// Which stages the state calls for. `variant`: bits of Variant.
+StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorFormat format, unsigned variant);
+
+PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format);
+
+// Per-ISA code of the stages, and the fused kernel for a list or null (raster/fragment/fused.def).
+BlockFunction stage_function(StageId id);
+BlockFunction fused_function(const StageList& list);
+
+}  // namespace halfspace::raster

@@ -1,0 +1,186 @@
+#include "raster/surface/resolve.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace halfspace::raster {
+namespace {
+
+struct BlockRow {
+  size_t tile;
+  int block;
+  int first_pixel;  // of the row, within the block
+  int count;
+};
+
+// Calls visit(BlockRow, position) for each stretch of row y between x0 and x1 that lies in one block.
+template <class Visit>
+void for_block_rows(const Framebuffer::Impl& fb, int x0, int x1, int y, Visit visit) {
+  const size_t tile_row = static_cast<size_t>(y / kTileSize) * static_cast<size_t>(fb.tiles_x);
+  const int block_row = (y % kTileSize) / kBlockSize * 8, pixel_row = y % kBlockSize * kBlockSize;
+  for (int x = x0; x < x1;) {
+    const int count = std::min(kBlockSize - x % kBlockSize, x1 - x);
+    visit(BlockRow{tile_row + static_cast<size_t>(x / kTileSize), block_row + (x % kTileSize) / kBlockSize,
+                   pixel_row + x % kBlockSize, count},
+          x - x0);
+    x += count;
+  }
+}
+
+bool is_marked(uint64_t marks, int block) { return (marks >> block & 1) != 0; }
+
+uint32_t to_byte(float v) {
+  return static_cast<uint32_t>((v > 0 ? std::min(v, 1.0f) : 0.0f) * 255.0f + 0.5f);
+}
+
+void copy_blocks_rgba8(const Framebuffer::Impl& fb, int x0, int x1, int y, uint32_t* out) {
+  for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
+    const TileState& state = fb.tiles[row.tile];
+    if (is_marked(state.color_is_clear, row.block)) {
+      std::fill_n(out + at, row.count, state.clear_rgba8);
+    } else {
+      const auto* pixels = fb.color_tile<uint32_t>(row.tile) + row.block * kBlockPixels + row.first_pixel;
+      if (row.count == kBlockSize) std::memcpy(out + at, pixels, kBlockSize * sizeof(uint32_t));
+      else std::memcpy(out + at, pixels, static_cast<size_t>(row.count) * sizeof(uint32_t));
+    }
+  });
+}
+
+void copy_blocks_float(const Framebuffer::Impl& fb, int x0, int x1, int y, float* out) {
+  for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
+    const TileState& state = fb.tiles[row.tile];
+    const float clear[4] = {state.clear_color.r, state.clear_color.g, state.clear_color.b, state.clear_color.a};
+    const bool marked = is_marked(state.color_is_clear, row.block);
+    const float* planes = marked ? nullptr : fb.color_tile<float>(row.tile) + row.block * kBlockPixels * 4;
+    for (int i = 0; i < row.count; ++i)
+      for (int c = 0; c < 4; ++c)
+        out[(at + i) * 4 + c] = marked ? clear[c] : planes[c * kBlockPixels + row.first_pixel + i];
+  });
+}
+
+// One pixel of `rgba` (R lowest) into `out` in the layout's order.
+template <PixelLayout kLayout>
+void store_pixel(uint32_t rgba, std::byte* out) {
+  const auto r = static_cast<std::byte>(rgba), g = static_cast<std::byte>(rgba >> 8),
+             b = static_cast<std::byte>(rgba >> 16), a = static_cast<std::byte>(rgba >> 24);
+  if constexpr (kLayout == PixelLayout::rgba) out[0] = r, out[1] = g, out[2] = b, out[3] = a;
+  if constexpr (kLayout == PixelLayout::bgra || kLayout == PixelLayout::bgrx)
+    out[0] = b, out[1] = g, out[2] = r, out[3] = a;
+  if constexpr (kLayout == PixelLayout::argb) out[0] = a, out[1] = r, out[2] = g, out[3] = b;
+  if constexpr (kLayout == PixelLayout::rgb) out[0] = r, out[1] = g, out[2] = b;
+  if constexpr (kLayout == PixelLayout::bgr) out[0] = b, out[1] = g, out[2] = r;
+  if constexpr (kLayout == PixelLayout::rgb565) {
+    auto narrow = [](uint32_t byte, uint32_t most) { return (byte * most + 127) / 255; };
+    const auto word = static_cast<uint16_t>(narrow(rgba & 255, 31) << 11 | narrow(rgba >> 8 & 255, 63) << 5 |
+                                            narrow(rgba >> 16 & 255, 31));
+    std::memcpy(out, &word, sizeof word);
+  }
+}
+
+template <PixelLayout kLayout, int kBytes>
+void store_row(const uint32_t* rgba, int count, std::byte* out) {
+  for (int i = 0; i < count; ++i) store_pixel<kLayout>(rgba[i], out + i * kBytes);
+}
+
+void store_row_bytes(const uint32_t* rgba, int count, PixelLayout layout, std::byte* out) {
+  switch (layout) {
+    case PixelLayout::rgba: std::memcpy(out, rgba, static_cast<size_t>(count) * 4); return;
+    case PixelLayout::bgra:
+    case PixelLayout::bgrx: return store_row<PixelLayout::bgra, 4>(rgba, count, out);
+    case PixelLayout::argb: return store_row<PixelLayout::argb, 4>(rgba, count, out);
+    case PixelLayout::rgb: return store_row<PixelLayout::rgb, 3>(rgba, count, out);
+    case PixelLayout::bgr: return store_row<PixelLayout::bgr, 3>(rgba, count, out);
+    case PixelLayout::rgb565: return store_row<PixelLayout::rgb565, 2>(rgba, count, out);
+  }
+}
+
+void store_row_floats(const float* rgba, int count, PixelLayout layout, std::byte* out) {
+  constexpr int kOrder[][4] = {{0, 1, 2, 3}, {2, 1, 0, 3}, {3, 0, 1, 2}, {0, 1, 2, -1}, {2, 1, 0, -1}};
+  const bool has_order = layout <= PixelLayout::bgr;
+  const int* order = kOrder[has_order ? static_cast<int>(layout) : static_cast<int>(PixelLayout::bgra)];
+  const int channels = order[3] < 0 ? 3 : 4;
+  for (int i = 0; i < count; ++i)
+    for (int c = 0; c < channels; ++c)
+      std::memcpy(out + (i * channels + c) * static_cast<int>(sizeof(float)), &rgba[i * 4 + order[c]], sizeof(float));
+}
+
+size_t pixel_bytes(const LinearImage& image) {
+  switch (image.layout) {
+    case PixelLayout::rgb:
+    case PixelLayout::bgr: return image.float_components ? 12 : 3;
+    case PixelLayout::rgb565: return 2;
+    default: return image.float_components ? 16 : 4;
+  }
+}
+
+std::byte* image_row(const LinearImage& image, int y) {
+  const int row = image.y_up ? y : image.height - 1 - y;
+  return static_cast<std::byte*>(image.data) + row * image.row_bytes;
+}
+
+void resolve_row(const Framebuffer::Impl& fb, int x0, int x1, int y, const LinearImage& image) {
+  std::byte* out = image_row(image, y) + static_cast<size_t>(x0) * pixel_bytes(image);
+  const int count = x1 - x0;
+  if (image.float_components && image.layout != PixelLayout::rgb565) {
+    float rgba[kTileSize * 4];
+    read_row_float(fb, x0, x1, y, rgba);
+    if (image.opaque)
+      for (int i = 0; i < count; ++i) rgba[i * 4 + 3] = 1;
+    store_row_floats(rgba, count, image.layout, out);
+    return;
+  }
+  uint32_t rgba[kTileSize];
+  if (image.layout == PixelLayout::rgba && !image.opaque && reinterpret_cast<uintptr_t>(out) % 4 == 0) {
+    read_row_rgba8(fb, x0, x1, y, reinterpret_cast<uint32_t*>(out));
+    return;
+  }
+  read_row_rgba8(fb, x0, x1, y, rgba);
+  if (image.opaque)
+    for (int i = 0; i < count; ++i) rgba[i] |= 0xff000000u;
+  store_row_bytes(rgba, count, image.layout, out);
+}
+
+}  // namespace
+
+void read_row_rgba8(const Framebuffer::Impl& fb, int x0, int x1, int y, uint32_t* out) {
+  if (fb.format == ColorFormat::rgba8) return copy_blocks_rgba8(fb, x0, x1, y, out);
+  for (int x = x0; x < x1; x += kTileSize) {
+    float rgba[kTileSize * 4];
+    const int end = std::min(x + kTileSize, x1);
+    copy_blocks_float(fb, x, end, y, rgba);
+    for (int i = 0; i < end - x; ++i)
+      out[x - x0 + i] = to_byte(rgba[i * 4]) | to_byte(rgba[i * 4 + 1]) << 8 | to_byte(rgba[i * 4 + 2]) << 16 |
+                        to_byte(rgba[i * 4 + 3]) << 24;
+  }
+}
+
+void read_row_float(const Framebuffer::Impl& fb, int x0, int x1, int y, float* out) {
+  if (fb.format == ColorFormat::rgba32f) return copy_blocks_float(fb, x0, x1, y, out);
+  for (int x = x0; x < x1; x += kTileSize) {
+    uint32_t rgba[kTileSize];
+    const int end = std::min(x + kTileSize, x1);
+    copy_blocks_rgba8(fb, x, end, y, rgba);
+    for (int i = 0; i < end - x; ++i)
+      for (int c = 0; c < 4; ++c)
+        out[(x - x0 + i) * 4 + c] = static_cast<float>(rgba[i] >> (8 * c) & 255u) / 255.0f;
+  }
+}
+
+void read_row_depth(const Framebuffer::Impl& fb, int x0, int x1, int y, uint32_t* out) {
+  for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
+    const TileState& state = fb.tiles[row.tile];
+    if (is_marked(state.depth_is_clear, row.block))
+      std::fill_n(out + at, row.count, state.clear_depth);
+    else
+      std::copy_n(fb.depth_tile(row.tile) + row.block * kBlockPixels + row.first_pixel, row.count, out + at);
+  });
+}
+
+void resolve_tile(const Framebuffer::Impl& fb, uint32_t tile, const LinearImage& image) {
+  // The image's top row is the framebuffer's when y goes down, so rows are told from the bottom of the image.
+  const Rect rect = intersect(fb.tile_rect(tile), {0, 0, image.width, image.height});
+  if (rect.empty()) return;
+  for (int y = rect.y0; y < rect.y1; ++y) resolve_row(fb, rect.x0, rect.x1, y, image);
+}
+
+}  // namespace halfspace::raster

@@ -1,0 +1,200 @@
+#include "raster/tile/tile_worker.h"
+
+#include "raster/isa.h"
+#include "raster/tile/coverage.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/tile/tile_worker.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace halfspace::raster {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#include "raster/tile/setup.inl"
+#include "raster/tile/triangle.inl"
+
+// What is the same for all primitives of a tile, and the scratch they share.
+struct TileContext {
+  Framebuffer::Impl* framebuffer;
+  TileState* state;
+  uint32_t tile;
+  int x, y;  // lowest pixel
+  const PipelineProgram* program;
+  Rect limit;          // the draw's bounds relative to the tile, within it
+  bool limit_is_tile;
+  TileStatistics* statistics;
+  BlockContext block;
+  SetupBatch setup;
+  SetupInput input;
+};
+
+// The plane's least (sign = -1) or greatest (sign = 1) depth over the pixel centres of the block.
+HWY_INLINE double BlockDepth(const SetupBatch& s, int lane, double dx, double dy, int sign) {
+  const double gx = s.dfdx[0][lane], gy = s.dfdy[0][lane];
+  const double far_x = (gx > 0) == (sign > 0) ? dx + (kBlockSize - 1) : dx;
+  const double far_y = (gy > 0) == (sign > 0) ? dy + (kBlockSize - 1) : dy;
+  return s.f0[0][lane] + gy * far_y + gx * far_x;
+}
+
+// Coarse z, rounded away from the decision: a block is dropped only if every pixel would fail.
+HWY_INLINE bool BlockIsHidden(const TileContext& t, int lane, int block) {
+  const double least = BlockDepth(t.setup, lane, t.block.dx, t.block.dy, -1);
+  return least - 1.0 > static_cast<double>(t.state->depth_max[block]) + 1.0;
+}
+
+HWY_INLINE void UpdateDepthMax(TileContext& t, int lane, int block, bool full) {
+  if (t.program->depth_may_grow) {
+    t.state->depth_max[block] = kDepthMax;
+  } else if (full && t.program->depth_pass_lowers) {
+    const double greatest = BlockDepth(t.setup, lane, t.block.dx, t.block.dy, 1) + 1.0;
+    if (greatest >= 0 && greatest < static_cast<double>(t.state->depth_max[block]))
+      t.state->depth_max[block] = static_cast<uint32_t>(greatest);
+  }
+}
+
+void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
+  BlockContext& c = t.block;
+  const SetupBatch& s = t.setup;
+  const PipelineProgram& program = *t.program;
+  c.dx = s.anchor_x[lane] + (block % 8) * kBlockSize;
+  c.dy = s.anchor_y[lane] + (block / 8) * kBlockSize;
+  if (program.rejects_deeper && BlockIsHidden(t, lane, block)) return;
+  const uint64_t bit = uint64_t{1} << block;
+  if (program.reads_depth) {
+    if ((t.state->depth_is_clear & bit) != 0) t.framebuffer->settle_depth(t.tile, bit);
+    c.depth = t.framebuffer->depth_tile(t.tile) + block * kBlockPixels;
+  }
+  if (program.writes_color) {
+    if ((t.state->color_is_clear & bit) != 0) t.framebuffer->settle_color(t.tile, bit);
+    std::byte* pixels = t.framebuffer->color_tile<std::byte>(t.tile) +
+                        static_cast<size_t>(block) * kBlockPixels * t.framebuffer->color_pixel_bytes();
+    c.color = reinterpret_cast<uint32_t*>(pixels);
+    c.color_planes = reinterpret_cast<float*>(pixels);
+  }
+  c.lane = lane;
+  c.live = mask;
+  const auto fragments = static_cast<uint64_t>(__builtin_popcountll(mask));
+  t.statistics->fragments += fragments;
+  if ((s.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
+  program.variants[s.variant[lane]].run(c);
+  UpdateDepthMax(t, lane, block, mask == ~uint64_t{0});
+}
+
+// Pixels of a block that lie in `limit` (relative to the tile).
+HWY_INLINE uint64_t LimitMask(const Rect& limit, int block) {
+  const int x = (block % 8) * kBlockSize, y = (block / 8) * kBlockSize;
+  uint64_t mask = 0;
+  for (int row = 0; row < kBlockSize; ++row) {
+    if (y + row < limit.y0 || y + row >= limit.y1) continue;
+    for (int column = 0; column < kBlockSize; ++column)
+      if (x + column >= limit.x0 && x + column < limit.x1) mask |= uint64_t{1} << (row * kBlockSize + column);
+  }
+  return mask;
+}
+
+void RunTriangle(TileContext& t, int lane) {
+  const SetupBatch& s = t.setup;
+  if (s.max_x[lane] < s.min_x[lane] || s.max_y[lane] < s.min_y[lane]) return;
+  const TriangleWalk walk(s, lane);
+  for (int by = s.min_y[lane] / kBlockSize; by <= s.max_y[lane] / kBlockSize; ++by) {
+    for (int bx = s.min_x[lane] / kBlockSize; bx <= s.max_x[lane] / kBlockSize; ++bx) {
+      uint64_t mask = walk.Coverage(bx * kBlockSize, by * kBlockSize, s.min_y[lane], s.max_y[lane]);
+      if (!t.limit_is_tile && mask != 0) mask &= LimitMask(t.limit, by * 8 + bx);
+      if (mask != 0) RunBlock(t, lane, by * 8 + bx, mask);
+    }
+  }
+}
+
+void RunLineOrPoint(TileContext& t, const PrimitiveRef& ref, const Segment& segment, const DrawRecord& draw,
+                    int lane) {
+  TileCoverage coverage;
+  const size_t stride = draw.vertices.layout.stride();
+  int32_t x[2], y[2];
+  for (int k = 0; k < 2; ++k) {
+    if (ref.cut) {
+      x[k] = segment.cut_triangles.data()[ref.v[0]].x[k];
+      y[k] = segment.cut_triangles.data()[ref.v[0]].y[k];
+    } else {
+      const VertexHead* head = Head(draw.vertices, stride, ref.v[ref.kind == PrimitiveKind::line ? k : 0]);
+      x[k] = head->x;
+      y[k] = head->y;
+    }
+  }
+  if (ref.kind == PrimitiveKind::line)
+    cover_line(x[0], y[0], x[1], y[1], t.x, t.y, draw.bounds, coverage);
+  else
+    cover_point(x[0], y[0], t.x, t.y, draw.bounds, coverage);
+  for (uint64_t todo = coverage.touched; todo != 0; todo &= todo - 1) {
+    const int block = __builtin_ctzll(todo);
+    if (coverage.blocks[block] != 0) RunBlock(t, lane, block, coverage.blocks[block]);
+  }
+}
+
+void SelectDraw(TileContext& t, const DrawRecord& draw) {
+  const Rect tile{t.x, t.y, t.x + kTileSize, t.y + kTileSize};
+  const Rect cut = intersect(tile, draw.bounds);
+  t.limit = {cut.x0 - t.x, cut.y0 - t.y, cut.x1 - t.x, cut.y1 - t.y};
+  t.limit_is_tile = cut == tile;
+  t.program = draw.program;
+  t.block.params = &draw.program->params;
+}
+
+void RunSegment(TileContext& t, const Segment& segment) {
+  const auto& bin = segment.bins.data()[t.tile];
+  const uint32_t* ids = bin.data();
+  const size_t total = bin.size(), draw_count = segment.draws.size();
+  size_t at = 0, draw = 0;
+  while (at < total) {
+    while (draw + 1 < draw_count && segment.draws.data()[draw + 1].first_primitive <= ids[at]) ++draw;
+    const uint32_t end = draw + 1 < draw_count ? segment.draws.data()[draw + 1].first_primitive : ~0u;
+    const DrawRecord& record = *segment.draws.data()[draw].draw;
+    SelectDraw(t, record);
+    while (at < total && ids[at] < end) {
+      int count = 0;
+      while (count < kSetupLanes && at + static_cast<size_t>(count) < total && ids[at + static_cast<size_t>(count)] < end)
+        ++count;
+      SetUp(segment, record, ids + at, count, t.x, t.y, t.limit, t.input, t.setup);
+      for (int lane = 0; lane < count; ++lane) {
+        const PrimitiveRef& ref = segment.primitives.data()[ids[at + static_cast<size_t>(lane)]];
+        if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
+        else RunLineOrPoint(t, ref, segment, record, lane);
+      }
+      at += static_cast<size_t>(count);
+    }
+  }
+}
+
+void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile,
+             TileStatistics& statistics) {
+  TileContext t;
+  t.input = {};  // lanes beyond a batch's count are computed with, though never used
+  t.framebuffer = &framebuffer;
+  t.state = &framebuffer.tiles.data()[tile];
+  t.tile = tile;
+  t.x = static_cast<int>(tile % static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
+  t.y = static_cast<int>(tile / static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
+  t.statistics = &statistics;
+  t.block.setup = &t.setup;
+  for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace halfspace::raster
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace halfspace::raster {
+namespace {
+using RunTileFunction = void (*)(std::span<Segment* const>, Framebuffer::Impl&, uint32_t, TileStatistics&);
+RunTileFunction select_run_tile() { HALFSPACE_SELECT_FUNCTION(RunTile) }
+}  // namespace
+
+void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile,
+              TileStatistics& statistics) {
+  select_run_tile()(segments, framebuffer, tile, statistics);
+}
+}  // namespace halfspace::raster
+#endif

@@ -1,0 +1,20 @@
+// A worker: takes a tile through all its primitives, in order.
+#pragma once
+
+#include <span>
+
+#include "raster/fragment/program.h"
+#include "raster/primitive/segment.h"
+#include "raster/surface/framebuffer.h"
+
+namespace halfspace::raster {
+
+struct TileStatistics {
+  uint64_t fragments = 0, double_fragments = 0;
+};
+
+// Draws the bins of `tile` of all segments, in their order, on the framebuffer. Tiles are independent of each other.
+void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile,
+              TileStatistics& statistics);
+
+}  // namespace halfspace::raster

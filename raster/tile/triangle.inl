@@ -1,0 +1,66 @@
+// Walking a triangle over the blocks of a tile: half-space tests, exact in int32. Compiled once per ISA level.
+
+struct TriangleWalk {
+  int32_t edge[3], step_x[3], step_y[3];
+  int32_t lowest[3], highest[3];  // how much an edge value can fall or rise inside a block
+
+  HWY_INLINE TriangleWalk(const SetupBatch& s, int lane) {
+    for (int k = 0; k < 3; ++k) {
+      edge[k] = s.edge[k][lane];
+      step_x[k] = s.step_x[k][lane];
+      step_y[k] = s.step_y[k][lane];
+      const int32_t rise_x = step_x[k] > 0 ? step_x[k] : 0, rise_y = step_y[k] > 0 ? step_y[k] : 0;
+      highest[k] = (kBlockSize - 1) * (rise_x + rise_y);
+      lowest[k] = (kBlockSize - 1) * (step_x[k] - rise_x + step_y[k] - rise_y);
+    }
+  }
+
+  // Pixels inside, of the block whose lowest-left pixel is (x, y) of the tile; rows outside [min_y, max_y] hold none.
+  HWY_INLINE uint64_t Coverage(int x, int y, int min_y, int max_y) const {
+    int32_t e[3];
+    int32_t outside = 0, crossed = 0;
+    for (int k = 0; k < 3; ++k) {
+      e[k] = edge[k] + step_x[k] * x + step_y[k] * y;
+      outside |= e[k] + highest[k];
+      crossed |= e[k] + lowest[k];
+    }
+    if (outside < 0) return 0;
+    if (crossed >= 0) return ~uint64_t{0};
+    const int first = min_y > y ? min_y - y : 0;
+    const int last = max_y < y + kBlockSize - 1 ? max_y - y : kBlockSize - 1;
+    return Rows(e, first, last);
+  }
+
+ private:
+  HWY_INLINE uint64_t Rows(const int32_t e[3], int first, int last) const {
+    using D = hn::CappedTag<int32_t, 8>;
+    const D d;
+    constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
+    uint64_t mask = 0;
+    for (int column = 0; column < kBlockSize; column += kWidth) {
+      const auto lanes = hn::Iota(d, column);
+      auto v0 = hn::Add(hn::Set(d, e[0] + first * step_y[0]), hn::Mul(lanes, hn::Set(d, step_x[0])));
+      auto v1 = hn::Add(hn::Set(d, e[1] + first * step_y[1]), hn::Mul(lanes, hn::Set(d, step_x[1])));
+      auto v2 = hn::Add(hn::Set(d, e[2] + first * step_y[2]), hn::Mul(lanes, hn::Set(d, step_x[2])));
+      for (int row = first; row <= last; ++row) {
+        const auto inside = hn::Not(hn::Lt(hn::Or(hn::Or(v0, v1), v2), hn::Zero(d)));
+        mask |= uint64_t{Bits(d, inside)} << (row * kBlockSize + column);
+        v0 = hn::Add(v0, hn::Set(d, step_y[0]));
+        v1 = hn::Add(v1, hn::Set(d, step_y[1]));
+        v2 = hn::Add(v2, hn::Set(d, step_y[2]));
+      }
+    }
+    return mask;
+  }
+
+  template <class D>
+  static HWY_INLINE unsigned Bits(D d, hn::Mask<D> mask) {
+#if HWY_TARGET == HWY_SCALAR
+    return hn::AllFalse(d, mask) ? 0u : 1u;
+#else
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, mask, bits);
+    return bits[0] & ((1u << hn::MaxLanes(d)) - 1);
+#endif
+  }
+};
