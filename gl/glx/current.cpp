@@ -94,6 +94,12 @@ std::shared_ptr<GlxDrawable> resolve(DisplayData& data, XID id, const FbConfig& 
   return drawable;
 }
 
+// Makes the state room look at the drawables anew.
+void tell_state(GlxContext& context) {
+  state::make_current(context.gl.get(), context.draw.get());
+  context.gl->read_drawable = context.read == context.draw ? nullptr : context.read.get();
+}
+
 void bind(GlxContext& context, std::shared_ptr<GlxDrawable> draw, std::shared_ptr<GlxDrawable> read) {
   draw->bind();
   if (read != draw) read->bind();
@@ -105,8 +111,7 @@ void bind(GlxContext& context, std::shared_ptr<GlxDrawable> draw, std::shared_pt
   context.read = std::move(read);
   context.current = true;
   current = &context;
-  state::make_current(context.gl.get(), context.draw.get());
-  context.gl->read_drawable = context.read == context.draw ? nullptr : context.read.get();
+  tell_state(context);
 }
 
 // The drawable of the current context has changed its size.
@@ -114,7 +119,7 @@ void follow_size(GlxContext* context, const std::shared_ptr<GlxDrawable>& drawab
   const std::lock_guard lock(Registry::get().mutex);
   if (context) context->gl->device.begin_pass(nullptr);
   drawable->apply_size();
-  if (context) state::make_current(context->gl.get(), context->draw.get());
+  if (context) tell_state(*context);
 }
 
 // Swapping with no context at hand: any renderer can read the buffers.
