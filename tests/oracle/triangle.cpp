@@ -16,10 +16,19 @@ Triangle::Triangle(const raster::Viewport& viewport, const std::array<ClipPoint,
   }
 }
 
+Affine<long double> Triangle::over_w(const std::array<long double, 3>& values, int px, int py) const {
+  std::array<long double, 3> divided;
+  for (size_t i = 0; i < 3; ++i) divided[i] = values[i] * inv_w_[i];
+  return affine(corners_, divided, px, py);
+}
+
 Affine<long double> Triangle::attribute(const std::array<long double, 3>& values, int px, int py) const {
-  std::array<long double, 3> over_w;
-  for (size_t i = 0; i < 3; ++i) over_w[i] = values[i] * inv_w_[i];
-  return quotient(affine(corners_, over_w, px, py), affine(corners_, inv_w_, px, py));
+  return projected(values, {1, 1, 1}, px, py);
+}
+
+Affine<long double> Triangle::projected(const std::array<long double, 3>& values,
+                                        const std::array<long double, 3>& q, int px, int py) const {
+  return quotient(over_w(values, px, py), over_w(q, px, py));
 }
 
 }  // namespace halfspace::oracle

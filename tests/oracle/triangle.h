@@ -23,8 +23,13 @@ class Triangle {
   long double depth(int px, int py) const { return affine(corners_, depth_, px, py).value; }
   // A perspective-correct attribute with its window derivatives.
   Affine<long double> attribute(const std::array<long double, 3>& values, int px, int py) const;
+  // The same for value / q, as texture coordinates s and t are (spec 3.5.1).
+  Affine<long double> projected(const std::array<long double, 3>& values, const std::array<long double, 3>& q,
+                                int px, int py) const;
 
  private:
+  Affine<long double> over_w(const std::array<long double, 3>& values, int px, int py) const;
+
   SnappedTriangle corners_;
   std::array<long double, 3> depth_, inv_w_;
 };
