@@ -23,7 +23,9 @@ class ModelReader {
     config.triangulate = true;
     config.mtl_search_path = "";
     if (!reader_.ParseFromFile(path, config)) {
-      fail(reader_.Error().empty() ? "it is not a Wavefront OBJ file" : reader_.Error());
+      std::string why = reader_.Error();
+      while (!why.empty() && why.back() == '\n') why.pop_back();
+      fail(why.empty() ? "it is not a Wavefront OBJ file" : why);
     }
   }
 

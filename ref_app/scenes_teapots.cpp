@@ -55,7 +55,7 @@ class NineTeapotsScene final : public TeapotSceneBase {
     background_ = {0.20F, 0.24F, 0.30F, 1.0F};
     const ImageHandle checker = images_.add(assets.checker());
     const ImageHandle marble = images_.add(assets.marble());
-    constexpr float kSpacing = 5.2F;  // between the teapots' axes
+    constexpr float kSpacing = 5.0F;  // between the teapots' axes
     static const glm::vec3 kColors[9] = {{0.85F, 0.33F, 0.28F}, {0.96F, 0.96F, 0.96F}, {0.30F, 0.55F, 0.80F},
                                          {0.93F, 0.76F, 0.30F}, {0.92F, 0.90F, 0.86F}, {0.42F, 0.68F, 0.44F},
                                          {0.62F, 0.44F, 0.72F}, {1.00F, 0.98F, 0.94F}, {0.90F, 0.52F, 0.24F}};
@@ -65,7 +65,7 @@ class NineTeapotsScene final : public TeapotSceneBase {
     add_plane(std::move(plane), checker);
     for (int i = 0; i < 9; ++i) {
       const bool textured = i % 3 == 1;
-      add_teapot(assets, place(i, kSpacing), static_cast<float>(17 + 40 * i), 0.78F, kColors[i],
+      add_teapot(assets, place(i, kSpacing), static_cast<float>(24 + 40 * i), 0.78F, kColors[i],
                  textured ? marble : kImageNeverAdded);
     }
   }

@@ -156,7 +156,7 @@ Image make_terrain_texture(const Image& heights) {
       const glm::vec3 slope(-h.slope_x * kTextureRelief, 1.0F, h.slope_y * kTextureRelief);
       const float lit = glm::dot(glm::normalize(slope), light);
       const float steepness = glm::length(glm::vec2(slope.x, slope.z));
-      const float patch = fractal_noise(static_cast<float>(x) / 64, static_cast<float>(y) / 64, 16, 3, 77);
+      const float patch = fractal_noise(static_cast<float>(x) / 64, static_cast<float>(y) / 64, 16, 4, 77);
       const glm::vec3 color =
           ground_color(h.height, steepness, patch) * (0.28F + 0.85F * (lit < 0 ? 0.0F : lit));
       image.rgba.insert(image.rgba.end(), {to_byte(color.r), to_byte(color.g), to_byte(color.b), 255});
