@@ -92,6 +92,8 @@ TEST(VertexStage, SnapsToTheNearestGridPointHalvesUpwards) {
   }
 }
 
+using Real = long double;
+
 uint16_t model_outcode(const ClipVertex& c, const Viewport& v) {
   if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z) || !std::isfinite(c.w))
     return kOutNotFinite;
@@ -103,34 +105,39 @@ uint16_t model_outcode(const ClipVertex& c, const Viewport& v) {
   if (c.z < -c.w) code |= kOutNear;
   if (c.z > c.w) code |= kOutFar;
   if (c.w < 1e-30) code |= kOutW;
-  const long double x = c.x * (v.width / 2.0L) + (v.x + v.width / 2.0L) * c.w;
-  const long double y = c.y * (v.height / 2.0L) + (v.y + v.height / 2.0L) * c.w;
-  if (x < kGuardBandMin * static_cast<long double>(c.w)) code |= kOutGuardLeft;
-  if (x > kGuardBandMax * static_cast<long double>(c.w)) code |= kOutGuardRight;
-  if (y < kGuardBandMin * static_cast<long double>(c.w)) code |= kOutGuardBottom;
-  if (y > kGuardBandMax * static_cast<long double>(c.w)) code |= kOutGuardTop;
+  const Real w = Real(c.w), half_width = Real(v.width) / 2, half_height = Real(v.height) / 2;
+  const Real x = Real(c.x) * half_width + (Real(v.x) + half_width) * w;
+  const Real y = Real(c.y) * half_height + (Real(v.y) + half_height) * w;
+  if (x < kGuardBandMin * w) code |= kOutGuardLeft;
+  if (x > kGuardBandMax * w) code |= kOutGuardRight;
+  if (y < kGuardBandMin * w) code |= kOutGuardBottom;
+  if (y > kGuardBandMax * w) code |= kOutGuardTop;
   return uint16_t(code);
+}
+
+void expect_clip_near(const DrawState& state, const float* position, const ClipVertex& c) {
+  for (size_t r = 0; r < 4; ++r) {
+    Real sum = 0, size = 0;
+    for (size_t k = 0; k < 4; ++k) {
+      const Real term = Real(state.clip_from_object[4 * k + r]) * Real(position[k]);
+      sum += term, size += std::fabs(term);
+    }
+    if (!std::isfinite(size)) continue;
+    EXPECT_NEAR((&c.x)[r], double(sum), double(size) * 1e-15);
+  }
 }
 
 void expect_matches_model(const DrawState& state, const std::vector<float>& v, const Shaded& s) {
   const Viewport& view = state.viewport;
   for (uint32_t i = 0; i < s.vertices.count; ++i) {
     const ClipVertex& c = s.vertices.clip[i];
-    for (size_t r = 0; r < 4; ++r) {
-      long double sum = 0, size = 0;
-      for (size_t k = 0; k < 4; ++k) {
-        const long double term = static_cast<long double>(state.clip_from_object[4 * k + r]) * v[4 * i + k];
-        sum += term, size += std::fabs(term);
-      }
-      if (!std::isfinite(size)) continue;
-      EXPECT_NEAR(double((&c.x)[r]), double(sum), double(size) * 1e-15) << i;
-    }
+    expect_clip_near(state, &v[4 * i], c);
     ASSERT_EQ(s.vertices.outcodes[i], model_outcode(c, view)) << i;
     if (s.vertices.outcodes[i] & (kOutCutMask | kOutNotFinite)) continue;
-    const long double w = c.w;
-    const long double x = (c.x / w + 1) * view.width / 2 + view.x,
-                      y = (c.y / w + 1) * view.height / 2 + view.y;
-    const long double z = (c.z / w + 1) / 2 * (view.depth_far - view.depth_near) + view.depth_near;
+    const Real w = Real(c.w), near = Real(view.depth_near);
+    const Real x = (Real(c.x) / w + 1) * view.width / 2 + view.x;
+    const Real y = (Real(c.y) / w + 1) * view.height / 2 + view.y;
+    const Real z = (Real(c.z) / w + 1) / 2 * (Real(view.depth_far) - near) + near;
     const VertexHead& head = s.vertices.head(i);
     EXPECT_NEAR(double(head.x - x * 256), 0, 0.5000001) << i;
     EXPECT_NEAR(double(head.y - y * 256), 0, 0.5000001) << i;
