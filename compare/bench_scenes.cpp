@@ -18,7 +18,6 @@ using Progress = std::function<void(const std::string&)>;
 struct Samples {
   std::map<int, std::vector<double>> scene_ms;
   std::map<int, std::string> names;
-  std::vector<double> first_picture_ms, peak_mb;
   std::string renderer, version;
 
   void add(const SceneResult& result) {
@@ -55,7 +54,7 @@ SceneJob make_job(const BenchOptions& options, Renderer renderer, std::vector<in
   job.threads = threads;
   job.cores = std::move(cores);
   job.library = options.library;
-  job.format = "bmp";
+  job.pictures = false;
   job.out = options.out / (renderer == Renderer::ours ? "ours" : "osmesa");
   return job;
 }
@@ -85,30 +84,44 @@ void measure_pairs(const BenchOptions& options, Samples& ours, Samples& theirs, 
   }
 }
 
-// From process start to the first picture, and peak memory: a process of its own each, with one scene and one
-// frame.
-void measure_processes(const BenchOptions& options, int scene, Samples& ours, Samples& theirs,
+// A process of its own each, with one scene and one frame; `take` keeps what is measured.
+using TakeValue = std::function<double(const SceneResult&)>;
+
+void measure_processes(const BenchOptions& options, const std::string& what, SceneJob job,
+                       const TakeValue& take, std::vector<double>& ours, std::vector<double>& theirs,
                        const Progress& progress) {
-  BenchOptions once = options;
-  once.frames = 1;
-  const std::vector<int> core{chosen_core(options)};
+  job.frames = 0;  // none after the first
   for (int pair = 0; pair < options.pairs; ++pair) {
-    progress("start and memory, scene " + std::to_string(scene) + ", pair " + std::to_string(pair + 1) +
-             " of " + std::to_string(options.pairs));
-    for (const auto& [renderer, samples] : {std::pair{Renderer::ours, &ours}, {Renderer::osmesa, &theirs}}) {
-      const SceneResult result = run_scenes(make_job(once, renderer, {scene}, 1, core));
-      samples->first_picture_ms.push_back(result.first_picture_ms);
-      samples->peak_mb.push_back(static_cast<double>(result.peak_kib) / 1024);
-    }
+    progress(what + ", pair " + std::to_string(pair + 1) + " of " + std::to_string(options.pairs));
+    job.renderer = Renderer::ours;
+    ours.push_back(take(run_scenes(job)));
+    job.renderer = Renderer::osmesa;
+    theirs.push_back(take(run_scenes(job)));
   }
 }
 
-BenchRow memory_row(int scene, const Samples& ours, const Samples& theirs) {
-  BenchRow row = lower_is_better("peak memory, scene " + std::to_string(scene), "MB", ours.peak_mb,
-                                 theirs.peak_mb, kMemoryTargetMb);
+BenchRow start_row(const BenchOptions& options, const Progress& progress) {
+  const std::string what = "process start to first picture";
+  std::vector<double> ours, theirs;
+  measure_processes(
+      options, what, make_job(options, Renderer::ours, {1}, 1, {chosen_core(options)}),
+      [](const SceneResult& result) { return result.first_picture_ms; }, ours, theirs, progress);
+  return lower_is_better(what, "ms", ours, theirs, kStartTarget);
+}
+
+BenchRow memory_row(const BenchOptions& options, int scene, const Progress& progress) {
+  const std::string what = "peak memory, scene " + std::to_string(scene);
+  SceneJob job = make_job(options, Renderer::ours, {scene}, 1, {chosen_core(options)});
+  job.from_small_parent = true;
+  std::vector<double> ours, theirs;
+  measure_processes(
+      options, what, job,
+      [](const SceneResult& result) { return static_cast<double>(result.peak_kib) / 1024; }, ours, theirs,
+      progress);
+  BenchRow row = lower_is_better(what, "MB", ours, theirs, kMemoryTargetMb);
   row.ratio = row.ours.highest;
   row.good = row.ratio <= kMemoryTargetMb;
-  row.remark = "target in MB";
+  row.remark = "MB at most";
   return row;
 }
 
@@ -165,14 +178,9 @@ BenchResult bench_scenes(const BenchOptions& options, const Progress& progress) 
   result.their_renderer = theirs.renderer;
   result.their_version = theirs.version;
 
-  Samples our_start, their_start;
-  measure_processes(options, 1, our_start, their_start, progress);
-  result.others.push_back(lower_is_better("start to first picture", "ms", our_start.first_picture_ms,
-                                          their_start.first_picture_ms, kStartTarget));
+  result.others.push_back(start_row(options, progress));
   for (int scene : kThreadScenes) result.others.push_back(thread_row(options, scene, progress));
-  Samples our_memory, their_memory;
-  measure_processes(options, kSceneCount, our_memory, their_memory, progress);
-  result.others.push_back(memory_row(kSceneCount, our_memory, their_memory));
+  result.others.push_back(memory_row(options, kSceneCount, progress));
   return result;
 }
 

@@ -23,7 +23,9 @@ img.pixelated { image-rendering: pixelated; } figcaption { font-size: .85rem; pa
 th, td { padding: .3rem .8rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
 th { color: var(--soft); font-weight: 600; } th:first-child, td:first-child { text-align: left; padding-left: 0; }
 .good { color: var(--good); font-weight: 600; } .bad { color: var(--bad); font-weight: 600; }
-code { font-size: .92em; } svg text { fill: currentColor; }
+figure img { cursor: zoom-in; } figure img.large { position: fixed; inset: 0; z-index: 1; width: 100vw; height: 100vh;
+  object-fit: contain; border-radius: 0; background: #000; cursor: zoom-out; }
+a { color: var(--ours); } code { font-size: .92em; } svg text { fill: currentColor; }
 )css";
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -79,8 +81,9 @@ std::string figures_html(const std::vector<Figure>& figures) {
   std::string html = "<div class=\"figures\">\n";
   for (const Figure& figure : figures) {
     const std::string caption = escape_html(figure.caption);
-    html += "<figure><img" + std::string(figure.pixelated ? " class=\"pixelated\"" : "") + " alt=\"" +
-            caption + "\" src=\"" + figure.source + "\"><figcaption>" + caption + "</figcaption></figure>\n";
+    html += "<figure><img onclick=\"this.classList.toggle('large')\"" +
+            std::string(figure.pixelated ? " class=\"pixelated\"" : "") + " alt=\"" + caption + "\" src=\"" +
+            figure.source + "\"><figcaption>" + caption + "</figcaption></figure>\n";
   }
   return html + "</div>\n";
 }

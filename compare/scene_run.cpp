@@ -1,5 +1,6 @@
 #include "compare/scene_run.h"
 
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -37,20 +38,33 @@ ChildCommand command_of(const SceneJob& job, const fs::path& json) {
                        std::to_string(job.width) + "x" + std::to_string(job.height),
                        "--frames",
                        std::to_string(job.frames),
-                       "--format",
-                       job.format,
                        "--out",
                        job.out.string(),
                        "--json",
                        json.string()};
+  if (job.pictures)
+    command.arguments.insert(command.arguments.end(), {"--format", "png"});
+  else
+    command.arguments.push_back("--no-pictures");
   for (int scene : job.scenes) {
     command.arguments.push_back("--scene");
     command.arguments.push_back(std::to_string(scene));
+  }
+  if (job.from_small_parent) {
+    // In the background, or the shell would become the program instead of forking.
+    const std::vector<std::string> shell{"/bin/sh", "-c", "\"$@\" & wait $!", "sh"};
+    command.arguments.insert(command.arguments.begin(), shell.begin(), shell.end());
   }
   command.environment = environment_of(job);
   command.cores = job.cores;
   command.output = job.out / "log.txt";
   return command;
+}
+
+// ref_app measures the time to its first picture from here.
+EnvironmentVariable start_now() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();  // CLOCK_MONOTONIC
+  return {"REF_APP_START_NS", std::to_string(std::chrono::nanoseconds(now).count())};
 }
 
 std::string whole_file(const fs::path& path) {
@@ -73,9 +87,10 @@ SceneTime scene_time(const nlohmann::json& entry, const fs::path& folder) {
   time.name = entry.value("name", "");
   time.first_ms = entry.at("first_ms").get<double>();
   time.median_ms = entry.at("median_ms").get<double>();
-  time.frames_ms = entry.value("frames_ms", std::vector<double>{});
-  const fs::path picture = entry.at("picture").get<std::string>();
-  time.picture = picture.is_absolute() || fs::exists(picture) ? picture : folder / picture;
+  time.frames_ms = entry.value("frame_ms", std::vector<double>{});
+  // A file name, beside the result; null when none was saved.
+  if (const nlohmann::json& picture = entry.at("picture"); picture.is_string())
+    time.picture = folder / fs::path(picture.get<std::string>()).filename();
   return time;
 }
 
@@ -97,7 +112,8 @@ SceneResult run_scenes(const SceneJob& job) {
   fs::create_directories(job.out);
   const fs::path json = job.out / "result.json";
   fs::remove(json);
-  const ChildCommand command = command_of(job, json);
+  ChildCommand command = command_of(job, json);
+  command.environment.push_back(start_now());
   const ChildResult child = run_child(command);
   if (child.exit_code != 0)
     throw std::runtime_error(std::string(renderer_name(job.renderer)) + ": " + kProgram +
@@ -113,9 +129,9 @@ SceneResult read_scene_result(const fs::path& path) {
   try {
     const nlohmann::json json = nlohmann::json::parse(whole_file(path));
     SceneResult result;
-    result.renderer = json.at("renderer").get<std::string>();
-    result.version = json.at("version").get<std::string>();
-    result.first_picture_ms = json.at("first_picture_ms").get<double>();
+    result.renderer = json.at("gl_renderer").get<std::string>();
+    result.version = json.at("gl_version").get<std::string>();
+    result.first_picture_ms = json.at("start_to_first_picture_ms").get<double>();
     result.peak_kib = json.at("peak_rss_kib").get<long>();
     for (const nlohmann::json& entry : json.at("scenes"))
       result.scenes.push_back(scene_time(entry, path.parent_path()));
