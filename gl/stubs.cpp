@@ -47,7 +47,7 @@ __attribute__((cold, noinline)) void* unimplemented(uint32_t index) {
   return nullptr;
 }
 
-__attribute__((cold, noinline)) double unimplemented_float(uint32_t index) {
+[[maybe_unused]] __attribute__((cold, noinline)) double unimplemented_float(uint32_t index) {
   unimplemented(index);
   return 0;  // GLfloat and GLdouble alike: all bits of the register are 0
 }
