@@ -44,7 +44,7 @@ fs::path library_folder(const std::string& library, const std::optional<std::str
   if (!from_environment.empty())
     return first_with(library, {from_environment},
                       "HALFSPACE_LIBRARY_DIR has to name the folder that holds it");
-  return first_with(library, {own_folder() / ".." / "lib", own_folder() / ".." / "gl"},
+  return first_with(library, {own_folder() / ".." / "lib"},
                     "build it with `cmake --build --preset release`, or name its folder by --library or "
                     "HALFSPACE_LIBRARY_DIR");
 }
