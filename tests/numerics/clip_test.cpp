@@ -168,9 +168,10 @@ TEST(Clip, SharedEdgesThroughTheNearPlane) {
         const int count = picture.pixel(x, y)[0];
         const Expectation e = expect_at(x, y, near);
         ASSERT_LE(count, 1) << "round " << round << ", near " << near << ", pixel " << x << ", " << y;
-        if (e.decided)
+        if (e.decided) {
           ASSERT_EQ(count, int(e.inside))
               << "round " << round << ", near " << near << ", pixel " << x << ", " << y;
+        }
       }
     }
   }

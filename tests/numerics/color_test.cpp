@@ -65,6 +65,31 @@ TEST(Color, ClearRoundsToNearest) {
   }
 }
 
+// The floats on either side of half a level, as a clear and as a draw's one colour.
+TEST(Color, HalfLevelsRoundToTheNearerByte) {
+  Canvas canvas(2, 2);
+  const std::vector<Vertex> quad = snapped_quad(0, 0, 512, 512, 2);
+  for (int byte = 0; byte < 255; ++byte) {
+    const double half = (2 * byte + 1) / 510.0;
+    float below = float(half), above = below;
+    if (double(below) > half) below = std::nextafter(below, 0.0f);
+    if (double(above) < half) above = std::nextafter(above, 1.0f);
+    if (below == above) above = std::nextafter(above, 1.0f);
+    for (int draw = 0; draw < 2; ++draw) {
+      const auto show = [&](const Color& color) {
+        draw ? canvas.draw_plain(plain_state(2, 2), Primitive::quads, quad, color) : canvas.clear(color);
+        return canvas.read();
+      };
+      const Picture picture = show({below, above, below, above});
+      // Exactly one half (byte 127) may go either way.
+      if (double(below) < half) {
+        EXPECT_EQ(int(picture.pixel(0, 1)[0]), byte) << "draw " << draw;
+      }
+      EXPECT_EQ(int(picture.pixel(0, 1)[1]), byte + 1) << "draw " << draw;
+    }
+  }
+}
+
 struct GradientOptions {
   Accuracy accuracy;
   bool perspective;
@@ -108,7 +133,10 @@ void expect_gradients(const GradientOptions& options, uint64_t seed) {
 
 TEST(Color, GradientsRoundToNearest) { expect_gradients({Accuracy::standard, false, 0.501}, 1); }
 TEST(Color, PerspectiveGradientsRoundToNearest) { expect_gradients({Accuracy::standard, true, 0.501}, 2); }
-TEST(Color, ExactGradientsRoundToNearest) { expect_gradients({Accuracy::exact, true, 0.5 + 1e-6}, 3); }
+TEST(Color, ExactGradientsRoundToNearest) {
+  // Interpolated in double; the last steps, in float, may cost a float's spacing at 255.
+  expect_gradients({Accuracy::exact, true, 0.5 + 0x1p-15}, 3);
+}
 
 // Spec 2.14.7, table 2.12: which vertex colours the i-th polygon or line of a flat-shaded primitive.
 TEST(FlatShading, ProvokingVertex) {

@@ -160,7 +160,9 @@ TEST(Depth, LadderKeepsItsOrder) {
         // A unit is 1 / (2^24 - 1), so a rung is a 2^-24th part less than a unit: at most one pair in 64 may
         // tie.
         ASSERT_LE(depth[k][i] - depth[k - 1][i], 1u);
-        if (k >= 2) ASSERT_GT(depth[k][i], depth[k - 2][i]);
+        if (k >= 2) {
+          ASSERT_GT(depth[k][i], depth[k - 2][i]);
+        }
       }
     }
   }

@@ -171,7 +171,7 @@ void expect_textured(const Case& c, uint64_t seed, double tolerance) {
   texture.add_noise(random, c.width, c.height, c.border);
   Sampler sampler = sampler_of(c.filter, c.wrap_s);
   sampler.wrap_t = c.wrap_t;
-  sampler.border_color = {0.2f, 0.4f, 0.9f, 0.6f};
+  sampler.border_color = {0.2f, 0.4f, 0.8f, 0.6f};  // whole levels
   const oracle::Texture reference = texture.reference(sampler);
   DrawState state = replace_state(kSize, texture.view(sampler));
   state.accuracy = c.accuracy;
