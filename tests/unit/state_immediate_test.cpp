@@ -1,0 +1,212 @@
+// What Begin/End hands to the device: attributes, batching, and that a primitive too long for one batch is
+// drawn in parts that together are the whole.
+#include "recording_device.h"
+#include "state_fixture.h"
+
+namespace halfspace::state {
+namespace {
+
+using raster::recorded_draws;
+using raster::RecordedDraw;
+using raster::RecordedVertex;
+
+using Corner = RecordedVertex;
+using Shape = std::vector<Corner>;
+
+// Triangles may start at any corner (the orientation is the order's); lines and quads are taken as they come.
+Shape turned(Shape shape) {
+  const auto lowest = std::min_element(
+      shape.begin(), shape.end(), [](const Corner& a, const Corner& b) { return a.position < b.position; });
+  std::rotate(shape.begin(), lowest, shape.end());
+  return shape;
+}
+
+// Spec 2.6.1: the points, segments, triangles and quads a primitive stands for, provoking vertex last in
+// `shapes`' second half of the pair.
+std::vector<std::pair<Shape, Corner>> decompose(GLenum mode, const std::vector<Corner>& v) {
+  std::vector<std::pair<Shape, Corner>> shapes;
+  const auto add = [&](Shape shape, const Corner& provoking) {
+    shapes.emplace_back(shape.size() > 2 ? turned(std::move(shape)) : std::move(shape), provoking);
+  };
+  const size_t n = v.size();
+  switch (mode) {
+    case GL_POINTS:
+      for (size_t i = 0; i < n; ++i) add({v[i]}, v[i]);
+      break;
+    case GL_LINES:
+      for (size_t i = 0; i + 1 < n; i += 2) add({v[i], v[i + 1]}, v[i + 1]);
+      break;
+    case GL_LINE_STRIP:
+    case GL_LINE_LOOP:
+      for (size_t i = 0; i + 1 < n; ++i) add({v[i], v[i + 1]}, v[i + 1]);
+      if (mode == GL_LINE_LOOP) add({v[n - 1], v[0]}, v[0]);
+      break;
+    case GL_TRIANGLES:
+      for (size_t i = 0; i + 2 < n; i += 3) add({v[i], v[i + 1], v[i + 2]}, v[i + 2]);
+      break;
+    case GL_TRIANGLE_STRIP:
+      for (size_t i = 0; i + 2 < n; ++i) {
+        add(i % 2 ? Shape{v[i + 1], v[i], v[i + 2]} : Shape{v[i], v[i + 1], v[i + 2]}, v[i + 2]);
+      }
+      break;
+    case GL_TRIANGLE_FAN:
+      for (size_t i = 1; i + 1 < n; ++i) add({v[0], v[i], v[i + 1]}, v[i + 1]);
+      break;
+    case GL_POLYGON:
+      for (size_t i = 1; i + 1 < n; ++i) add({v[0], v[i], v[i + 1]}, v[0]);
+      break;
+    case GL_QUADS:
+      for (size_t i = 0; i + 3 < n; i += 4) add({v[i], v[i + 1], v[i + 2], v[i + 3]}, v[i + 3]);
+      break;
+    case GL_QUAD_STRIP:
+      for (size_t i = 0; i + 3 < n; i += 2) add({v[i], v[i + 1], v[i + 3], v[i + 2]}, v[i + 3]);
+      break;
+  }
+  return shapes;
+}
+
+std::vector<std::pair<Shape, Corner>> decompose_recorded() {
+  std::vector<std::pair<Shape, Corner>> all;
+  for (const RecordedDraw& draw : recorded_draws) {
+    const auto part = decompose(GLenum(draw.primitive), draw.vertices);
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+class ImmediateTest : public StateTest {
+ protected:
+  ImmediateTest() { recorded_draws.clear(); }
+  void feed(const std::vector<Corner>& corners) {
+    for (const Corner& c : corners) {
+      op::color(*context, c.color[0], c.color[1], c.color[2], c.color[3]);
+      op::tex_coord(*context, c.tex_coord[0], c.tex_coord[1], c.tex_coord[2], c.tex_coord[3]);
+      op::vertex(*context, c.position[0], c.position[1], c.position[2], c.position[3]);
+    }
+  }
+  static std::vector<Corner> numbered(size_t count) {
+    std::vector<Corner> corners(count);
+    for (size_t i = 0; i < count; ++i) {
+      const float f = float(i);
+      corners[i] = {{f, f + 0.25f, f + 0.5f, 1}, {f, 0.5f, -f, 1}, {-f, f, 0, 1}};
+    }
+    return corners;
+  }
+};
+
+TEST_F(ImmediateTest, EveryModeArrivesAsGiven) {
+  op::enable(*context, GL_TEXTURE_2D);
+  const auto corners = numbered(13);
+  for (GLenum mode = GL_POINTS; mode <= GL_POLYGON; ++mode) {
+    recorded_draws.clear();
+    op::begin(*context, mode);
+    feed(corners);
+    op::end(*context);
+    ASSERT_EQ(recorded_draws.size(), 1u);
+    EXPECT_EQ(GLenum(recorded_draws[0].primitive), mode);
+    EXPECT_EQ(recorded_draws[0].vertices, corners);
+    EXPECT_EQ(recorded_draws[0].target, &drawable.front());
+  }
+}
+
+TEST_F(ImmediateTest, LongPrimitivesPartWithoutASeam) {
+  op::enable(*context, GL_TEXTURE_2D);
+  for (size_t count : {size_t{kMaxBatchVertices}, size_t{kMaxBatchVertices} + 1,
+                       size_t{kMaxBatchVertices} * 2 - 1, size_t{kMaxBatchVertices} * 2 + 7}) {
+    const auto corners = numbered(count);
+    for (GLenum mode = GL_POINTS; mode <= GL_POLYGON; ++mode) {
+      recorded_draws.clear();
+      op::begin(*context, mode);
+      feed(corners);
+      op::end(*context);
+      for (const RecordedDraw& draw : recorded_draws) EXPECT_LE(draw.batch_count, kMaxBatchVertices);
+      EXPECT_EQ(recorded_draws.size() > 1, count > kMaxBatchVertices) << mode;
+      EXPECT_TRUE(decompose_recorded() == decompose(mode, corners)) << "mode " << mode << ", " << count;
+    }
+  }
+}
+
+TEST_F(ImmediateTest, AColourThatNeverChangesIsConstant) {
+  op::color(*context, 0.25f, 0.5f, 0.75f, 1);
+  op::begin(*context, GL_TRIANGLES);
+  op::color(*context, 1, 0.5f, 0, 1);  // before the first vertex
+  for (int i = 0; i < 3; ++i) {
+    op::color(*context, 1, 0.5f, 0, 1);  // again, and the same
+    op::vertex(*context, float(i), 0, 0, 1);
+  }
+  op::end(*context);
+  ASSERT_EQ(recorded_draws.size(), 1u);
+  EXPECT_TRUE(recorded_draws[0].constant_color);
+  EXPECT_FALSE(recorded_draws[0].has_tex_coord);
+  for (const auto& v : recorded_draws[0].vertices) EXPECT_EQ(v.color, (std::array<float, 4>{1, 0.5f, 0, 1}));
+
+  op::begin(*context, GL_LINES);
+  op::vertex(*context, 0, 0, 0, 1);
+  op::color(*context, 0, 0, 0, 1);
+  op::vertex(*context, 1, 0, 0, 1);
+  op::end(*context);
+  EXPECT_FALSE(recorded_draws[1].constant_color);
+  EXPECT_EQ(recorded_draws[1].vertices[0].color, (std::array<float, 4>{1, 0.5f, 0, 1}));
+  EXPECT_EQ(recorded_draws[1].vertices[1].color, (std::array<float, 4>{0, 0, 0, 1}));
+  // The current colour outlives End.
+  EXPECT_EQ(context->current.color[0], 0);
+}
+
+TEST_F(ImmediateTest, NothingIsDrawnWithoutVerticesOrOutside) {
+  op::begin(*context, GL_TRIANGLES);
+  op::end(*context);
+  op::vertex(*context, 0, 0, 0, 1);
+  op::begin(*context, GL_POINTS);
+  op::vertex(*context, 5, 0, 0, 1);
+  op::end(*context);
+  ASSERT_EQ(recorded_draws.size(), 1u);
+  EXPECT_EQ(recorded_draws[0].vertices.size(), 1u);
+}
+
+TEST_F(ImmediateTest, RectIsAPolygonCounterClockwise) {
+  op::rect(*context, 1, 2, 3, 4);
+  ASSERT_EQ(recorded_draws.size(), 1u);
+  const auto& v = recorded_draws[0].vertices;
+  ASSERT_EQ(v.size(), 4u);
+  const std::array<float, 4> expected[] = {{1, 2, 0, 1}, {3, 2, 0, 1}, {3, 4, 0, 1}, {1, 4, 0, 1}};
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(v[i].position, expected[i]);
+  EXPECT_EQ(current_binding.table, &kExecuteTable);
+}
+
+TEST_F(ImmediateTest, OutOfMemoryIsAnErrorAndTheNextDrawIsRight) {
+  raster::fail_next_draw = true;
+  op::rect(*context, 0, 0, 1, 1);
+  EXPECT_EQ(op::get_error(*context), GLenum(GL_OUT_OF_MEMORY));
+  EXPECT_TRUE(recorded_draws.empty());
+  op::rect(*context, 0, 0, 1, 1);
+  EXPECT_EQ(op::get_error(*context), GLenum(GL_NO_ERROR));
+  EXPECT_EQ(recorded_draws.size(), 1u);
+}
+
+TEST_F(ImmediateTest, DrawBufferNoneDrawsNothing) {
+  op::draw_buffer(*context, GL_NONE);
+  op::rect(*context, 0, 0, 1, 1);
+  EXPECT_TRUE(recorded_draws.empty());
+  EXPECT_EQ(op::get_error(*context), GLenum(GL_NO_ERROR));
+}
+
+// A draw keeps the state it was made with; unchanged state is not made again.
+TEST_F(ImmediateTest, DrawStateIsMadeOnceAChange) {
+  op::rect(*context, 0, 0, 1, 1);
+  op::rect(*context, 0, 0, 1, 1);
+  op::depth_func(*context, GL_GEQUAL);
+  op::enable(*context, GL_CULL_FACE);
+  op::cull_face(*context, GL_FRONT);
+  op::shade_model(*context, GL_FLAT);
+  op::rect(*context, 0, 0, 1, 1);
+  ASSERT_EQ(recorded_draws.size(), 3u);
+  EXPECT_EQ(recorded_draws[0].state, recorded_draws[1].state);
+  const raster::DrawState &before = *recorded_draws[1].state, &after = *recorded_draws[2].state;
+  EXPECT_EQ(before.depth.func, raster::CompareFunc::less);
+  EXPECT_FALSE(before.raster.cull_front || before.raster.cull_back || before.raster.flat_shading);
+  EXPECT_EQ(after.depth.func, raster::CompareFunc::greater_equal);
+  EXPECT_TRUE(after.raster.cull_front && !after.raster.cull_back && after.raster.flat_shading);
+}
+
+}  // namespace
+}  // namespace halfspace::state
