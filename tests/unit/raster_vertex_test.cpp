@@ -200,7 +200,8 @@ TEST(VertexStage, MovingTheViewportMovesTheGridPointsExactly) {
 TEST(VertexStage, ColoursAreClampedAndNaNIsZero) {
   const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
   const std::vector<float> colors = {-1, 0.25f, 2, nan, inf, -inf, 1, -0.0f};
-  VertexBatch batch = batch_of({0, 0, 0, 0, 0, 0}, 3);
+  const std::vector<float> origin(6, 0.0f);
+  VertexBatch batch = batch_of(origin, 3);
   batch.color = packed(colors, 4);
   const Shaded s = shade(DrawState{}, batch);
   ASSERT_EQ(s.vertices.layout.color, 0);
@@ -214,7 +215,8 @@ TEST(VertexStage, TextureCoordinatesGoThroughTheMatrixAndStayFinite) {
   state.texture.view = some_view();
   const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
   const std::vector<float> coords = {0.5f, 3, inf, nan, -inf, -2};
-  VertexBatch batch = batch_of(std::vector<float>(9, 0.0f), 3);
+  const std::vector<float> origin(9, 0.0f);
+  VertexBatch batch = batch_of(origin, 3);
   batch.tex_coord = packed(coords, 2);
   Shaded s = shade(state, batch);
   EXPECT_EQ(s.vertices.layout.attribute_count, 2);
@@ -234,7 +236,8 @@ TEST(VertexStage, TextureCoordinatesGoThroughTheMatrixAndStayFinite) {
 TEST(VertexLayoutChoice, LeavesOutWhatDoesNotVary) {
   DrawState state;
   const std::vector<float> same = {0.5f, 2, 0, 0.5f, 2, 0}, differ = {0.5f, 2, 0, 0.5f, 2, 1};
-  VertexBatch batch = batch_of(std::vector<float>(6, 0.0f), 3);
+  const std::vector<float> origin(6, 0.0f);
+  VertexBatch batch = batch_of(origin, 3);
   EXPECT_EQ(choose_layout(state, batch).constant_color, (Color{1, 1, 1, 1}));
   batch.color = packed(same, 3);
   EXPECT_EQ(choose_layout(state, batch).color, -1);
