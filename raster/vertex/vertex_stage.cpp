@@ -161,12 +161,17 @@ HWY_INLINE void load_positions(const StreamRef& stream, uint32_t first, uint32_t
   }
 }
 
+// Field by field: a head built aside and copied would be read back wider than it was written, which stalls.
 HWY_INLINE void store_heads(const ShadeJob& job, uint32_t first, uint32_t count, const Group& g) {
-  unsigned char* record = job.records + size_t{first} * job.record_stride;
+  const size_t stride = job.record_stride;
+  unsigned char* record = job.records + size_t{first} * stride;
   uint16_t* outcode = job.outcodes + first;
-  for (uint32_t i = 0; i < count; ++i, record += job.record_stride) {
-    const VertexHead head{g.x[i], g.y[i], g.z[i], g.inv_w[i]};
-    memcpy(record, &head, sizeof head);
+  for (uint32_t i = 0; i < count; ++i, record += stride) {
+    VertexHead* head = reinterpret_cast<VertexHead*>(record);
+    head->x = g.x[i];
+    head->y = g.y[i];
+    head->z = g.z[i];
+    head->inv_w = g.inv_w[i];
     outcode[i] = uint16_t(g.outcode[i]);
   }
 }
