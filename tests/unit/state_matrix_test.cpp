@@ -29,7 +29,7 @@ class MatrixTest : public StateTest {
 };
 
 double ulps(double value, long double truth) {
-  const double unit = std::nextafter(std::fabs(value), INFINITY) - std::fabs(value);
+  const double unit = std::nextafter(std::fabs(value), HUGE_VAL) - std::fabs(value);
   return double(std::fabs((long double)(value)-truth) / (long double)(unit));
 }
 
@@ -75,8 +75,8 @@ TEST(Trigonometry, IsExactAtQuarterTurnsHoweverMany) {
     EXPECT_EQ(value.cosine, kSine[(i + 1) & 3]) << i;
   }
   EXPECT_EQ(sine_cosine_degrees(360e15 + 64).sine, sine_cosine_degrees(64).sine);  // both sums are exact
-  EXPECT_TRUE(std::isnan(sine_cosine_degrees(INFINITY).sine));
-  EXPECT_TRUE(std::isnan(sine_cosine_degrees(NAN).cosine));
+  EXPECT_TRUE(std::isnan(sine_cosine_degrees(HUGE_VAL).sine));
+  EXPECT_TRUE(std::isnan(sine_cosine_degrees(double(NAN)).cosine));
 }
 
 TEST_F(MatrixTest, CommandsMultiplyFromTheRightLikeGlm) {
