@@ -79,15 +79,21 @@ class Assembler {
         stride_(draw.vertices.layout.stride()),
         outcodes_(draw.vertices.outcodes.data()),
         bounds_(draw.bounds),
-        raster_(draw.state->raster),
-        clipper_(draw) {}
+        clipper_(draw) {
+    const RasterState& raster = draw.state->raster;
+    front_is_ccw_ = raster.front_is_ccw;
+    const bool cull_ccw = front_is_ccw_ ? raster.cull_front : raster.cull_back;
+    const bool cull_cw = front_is_ccw_ ? raster.cull_back : raster.cull_front;
+    culled_from_ = cull_cw ? INT64_MIN : 0;
+    culled_to_ = cull_ccw ? INT64_MAX : 0;
+  }
 
   template <class Pattern>
   void triangles(uint32_t first, uint32_t count) {
     segment_.triangles_in += count;
     for (uint32_t k = first; k < first + count; ++k) {
       const Corners at = Pattern::at(k);
-      triangle({{vertex(at.v[0]), vertex(at.v[1]), vertex(at.v[2])}}, Pattern::kProvoking);
+      triangle(vertex(at.v[0]), vertex(at.v[1]), vertex(at.v[2]), Pattern::kProvoking);
     }
   }
 
@@ -116,51 +122,47 @@ class Assembler {
     return uint32_t(segment_.primitives.size() - 1);
   }
 
-  bool is_culled(bool back_facing) const { return back_facing ? raster_.cull_back : raster_.cull_front; }
+  bool is_back(int64_t area) const { return (area > 0) != front_is_ccw_; }
+  bool is_culled(int64_t area) const { return area >= culled_from_ && area <= culled_to_; }
 
-  void triangle(const Corners& c, uint8_t provoking) {
-    const unsigned o0 = outcodes_[c.v[0]], o1 = outcodes_[c.v[1]], o2 = outcodes_[c.v[2]];
-    const unsigned any = o0 | o1 | o2;
+  // Corners by value: in memory they would be read back wider than they were written, which stalls.
+  void triangle(uint32_t v0, uint32_t v1, uint32_t v2, uint8_t provoking) {
+    const unsigned o0 = outcodes_[v0], o1 = outcodes_[v1], o2 = outcodes_[v2], any = o0 | o1 | o2;
     if (any != 0) {
       if ((o0 & o1 & o2) != 0 || (any & kOutNotFinite)) {
         ++segment_.culled;
         return;
       }
-      if (any & kOutCutMask) return cut_triangle(c, any, provoking);
+      if (any & kOutCutMask) return cut_triangle({{v0, v1, v2}}, any, provoking);
     }
-    const VertexHead &a = head(c.v[0]), &b = head(c.v[1]), &d = head(c.v[2]);
-    const int32_t x[3] = {a.x, b.x, d.x}, y[3] = {a.y, b.y, d.y};
-    const int64_t area = int64_t{x[1] - x[0]} * (y[2] - y[0]) - int64_t{x[2] - x[0]} * (y[1] - y[0]);
-    const bool back = (area > 0) != raster_.front_is_ccw;
-    const Rect box = triangle_box(x, y);
-    if (area == 0 || is_culled(back) || box.empty()) {
+    const VertexHead &a = head(v0), &b = head(v1), &c = head(v2);
+    const int64_t area = int64_t{b.x - a.x} * (c.y - a.y) - int64_t{c.x - a.x} * (b.y - a.y);
+    const Rect box = triangle_box(a.x, a.y, b.x, b.y, c.x, c.y);
+    if (is_culled(area) || box.empty()) {
       ++segment_.culled;
       return;
     }
-    bin(x, y, box, append({{c.v[0], c.v[1], c.v[2]}, PrimitiveKind::triangle, false, back, provoking}));
-  }
-
-  Rect triangle_box(const int32_t x[3], const int32_t y[3]) const {
-    return pixel_box(std::min(std::min(x[0], x[1]), x[2]), std::min(std::min(y[0], y[1]), y[2]),
-                     std::max(std::max(x[0], x[1]), x[2]), std::max(std::max(y[0], y[1]), y[2]), bounds_);
-  }
-
-  void bin(const int32_t x[3], const int32_t y[3], const Rect& box, uint32_t primitive) {
+    const uint32_t primitive =
+        append({{v0, v1, v2}, PrimitiveKind::triangle, false, is_back(area), provoking});
     const TileBox tiles = tile_box(box);
-    if (tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1) {
-      push_to_bin(segment_, size_t(tiles.y0) * size_t(segment_.tiles_x) + size_t(tiles.x0), primitive);
-    } else {
-      bin_triangle(segment_, tiles, x, y, primitive);
-    }
+    if (tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1)
+      return push_to_bin(segment_, tiles.x0, tiles.y0, primitive);
+    const int32_t x[3] = {a.x, b.x, c.x}, y[3] = {a.y, b.y, c.y};
+    bin_triangle(segment_, tiles, x, y, primitive);
+  }
+
+  Rect triangle_box(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x2, int32_t y2) const {
+    return pixel_box(std::min(std::min(x0, x1), x2), std::min(std::min(y0, y1), y2),
+                     std::max(std::max(x0, x1), x2), std::max(std::max(y0, y1), y2), bounds_);
   }
 
   void cut_triangle(const Corners& c, unsigned any, uint8_t provoking) {
     ++segment_.clipped;
     Clipper::Polygon polygon;
     clipper_.clip_triangle(c.v, any, polygon);
-    const bool back = (polygon.area > 0) != raster_.front_is_ccw;
+    const bool back = is_back(polygon.area);
     PlaneSource planes;
-    if (polygon.count < 3 || is_culled(back) || !clipper_.triangle_planes(c.v, polygon, planes)) {
+    if (polygon.count < 3 || is_culled(polygon.area) || !clipper_.triangle_planes(c.v, polygon, planes)) {
       ++segment_.culled;
       return;
     }
@@ -180,11 +182,12 @@ class Assembler {
   bool append_cut(const CutTriangle& cut, bool back) {
     const int64_t area = int64_t{cut.x[1] - cut.x[0]} * (cut.y[2] - cut.y[0]) -
                          int64_t{cut.x[2] - cut.x[0]} * (cut.y[1] - cut.y[0]);
-    const Rect box = triangle_box(cut.x, cut.y);
+    const Rect box = triangle_box(cut.x[0], cut.y[0], cut.x[1], cut.y[1], cut.x[2], cut.y[2]);
     if (area == 0 || box.empty()) return false;
     segment_.cut_triangles.push_back(cut);
     const auto index = uint32_t(segment_.cut_triangles.size() - 1);
-    bin(cut.x, cut.y, box, append({{index, 0, 0}, PrimitiveKind::triangle, true, back, 0}));
+    const uint32_t primitive = append({{index, 0, 0}, PrimitiveKind::triangle, true, back, 0});
+    bin_triangle(segment_, tile_box(box), cut.x, cut.y, primitive);
     return true;
   }
 
@@ -235,7 +238,8 @@ class Assembler {
   size_t stride_;
   const uint16_t* outcodes_;
   Rect bounds_;
-  RasterState raster_;
+  bool front_is_ccw_;
+  int64_t culled_from_, culled_to_;  // signed areas that are dropped; 0 always is
   Clipper clipper_;
 };
 

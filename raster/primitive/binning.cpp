@@ -33,9 +33,8 @@ void bin_triangle(Segment& segment, const TileBox& box, const int32_t x[3], cons
       (int64_t{x[1]} - x[0]) * (int64_t{y[2]} - y[0]) - (int64_t{x[2]} - x[0]) * (int64_t{y[1]} - y[0]);
   TileEdge e0(x, y, 0, area < 0, box), e1(x, y, 1, area < 0, box), e2(x, y, 2, area < 0, box);
   for (int ty = box.y0; ty <= box.y1; ++ty) {
-    const size_t row = size_t(ty) * size_t(segment.tiles_x);
     for (int tx = box.x0; tx <= box.x1; ++tx) {
-      if ((e0.value | e1.value | e2.value) >= 0) push_to_bin(segment, row + size_t(tx), primitive);
+      if ((e0.value | e1.value | e2.value) >= 0) push_to_bin(segment, tx, ty, primitive);
       e0.value += e0.step_x, e1.value += e1.step_x, e2.value += e2.step_x;
     }
     e0.next_row(), e1.next_row(), e2.next_row();
