@@ -52,6 +52,8 @@ int close_hook(Display* display, XExtCodes*) {
 
 Connection::Connection(Display* display, void (*on_close)(Display*))
     : display_(display), filter_(std::make_unique<ErrorFilter>()) {
+  // Before our close hook is set: the hooks run last first, and ours still detaches shared memory.
+  has_shared_memory_ = is_local(display) && ImageByteOrder(display) == LSBFirst && XShmQueryExtension(display);
   closing = on_close;
   if (XExtCodes* codes = XAddExtension(display)) XESetCloseDisplay(display, codes->extension, close_hook);
   has_shared_memory_ =
