@@ -12,7 +12,8 @@
 
 namespace halfspace::compare {
 
-// What the standard level promises against OSMesa's float filter.
+// What the standard level promises against OSMesa's float filter, and the draft level against its 8-bit
+// filter.
 constexpr double kMostDifferingPercent = 0.1;
 constexpr double kMostInteriorLevels = 1;
 
@@ -26,17 +27,20 @@ struct DemoOptions {
 };
 
 struct DemoScene {
-  SceneTime ours, osmesa, osmesa_float;
-  Difference to_osmesa, to_float;
+  SceneTime ours, ours_draft, osmesa, osmesa_float;
+  Difference standard;  // ours to osmesa_float
+  Difference draft;     // ours_draft to osmesa
   bool good() const;
 };
 
 struct Demo {
-  SceneResult ours, osmesa, osmesa_float;
+  SceneResult ours, ours_draft, osmesa, osmesa_float;
   std::vector<DemoScene> scenes;
 };
 
-// The result of each renderer as its folder ours/, osmesa/ and osmesa_float/ in `out` holds it.
+bool keeps_promise(const Difference& difference);
+
+// The results of the renderers are left in `out`: ours/, ours_draft/, osmesa/, osmesa_float/.
 Demo run_demo(const DemoOptions& options, const std::function<void(const std::string&)>& progress);
 // The same from results of before, without drawing anything.
 Demo load_demo(const std::filesystem::path& out);

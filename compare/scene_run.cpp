@@ -15,9 +15,12 @@ namespace fs = std::filesystem;
 constexpr const char* kProgram = "ref_app_osmesa";
 constexpr const char* kOurLibrary = "libOSMesa.so.8";
 
+bool is_ours(Renderer renderer) { return renderer == Renderer::ours || renderer == Renderer::ours_draft; }
+
 std::vector<EnvironmentVariable> environment_of(const SceneJob& job) {
-  if (job.renderer == Renderer::ours) {
+  if (is_ours(job.renderer)) {
     std::vector<EnvironmentVariable> ours{library_path_with(library_folder(kOurLibrary, job.library))};
+    ours.emplace_back("HALFSPACE_ACCURACY", job.renderer == Renderer::ours_draft ? "draft" : "standard");
     if (job.threads > 0) ours.emplace_back("HALFSPACE_THREADS", std::to_string(job.threads));
     return ours;
   }
@@ -75,8 +78,7 @@ std::string whole_file(const fs::path& path) {
 }
 
 void require_renderer(const SceneJob& job, const SceneResult& result) {
-  const bool is_ours = result.renderer.starts_with("Halfspace");
-  if (is_ours == (job.renderer == Renderer::ours)) return;
+  if (result.renderer.starts_with("Halfspace") == is_ours(job.renderer)) return;
   throw std::runtime_error(std::string("asked for ") + renderer_name(job.renderer) + ", but \"" +
                            result.renderer + "\" drew; is an LD_LIBRARY_PATH or LD_PRELOAD in the way?");
 }
@@ -100,6 +102,8 @@ const char* renderer_name(Renderer renderer) {
   switch (renderer) {
     case Renderer::ours:
       return "Halfspace";
+    case Renderer::ours_draft:
+      return "Halfspace, draft";
     case Renderer::osmesa:
       return "OSMesa";
     case Renderer::osmesa_float:

@@ -15,11 +15,12 @@ constexpr int kSceneCount = 8;
 
 enum class Renderer {
   ours,
+  ours_draft,    // at the draft level: textures filtered with 8-bit weights, as llvmpipe does
   osmesa,        // Debian's libOSMesa, llvmpipe
   osmesa_float,  // the same, made to filter textures in float
 };
 
-// "Halfspace", "OSMesa", "OSMesa, float filter".
+// "Halfspace", "Halfspace, draft", "OSMesa", "OSMesa, float filter".
 const char* renderer_name(Renderer renderer);
 
 struct SceneJob {

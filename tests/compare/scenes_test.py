@@ -1,0 +1,84 @@
+"""demo and bench on the libraries of this build: they run, and their reports hold what was drawn.
+
+What the reports judge (differences, speed) is not judged here.
+
+usage: scenes_test.py HALFSPACE
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from commands_test import WellFormed
+
+HALFSPACE = ""
+
+
+def run(*arguments):
+    return subprocess.run([HALFSPACE, *map(str, arguments)], capture_output=True, text=True, timeout=600)
+
+
+def system_library_folder():
+    """Where the dynamic linker finds libOSMesa.so.8, the system's."""
+    listing = subprocess.run(["/sbin/ldconfig", "-p"], capture_output=True, text=True, check=True).stdout
+    line = next(line for line in listing.splitlines() if "libOSMesa.so.8 " in line)
+    return pathlib.Path(line.split("=>")[1].strip()).parent
+
+
+class Scenes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = pathlib.Path(folder.name) / "out"
+
+    def test_demo(self):
+        done = run("demo", "--scene", 1, "--scene", 4, "--frames", 1, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        result = json.loads((self.out / "demo.json").read_text())
+        self.assertTrue(result["ours"]["renderer"].startswith("Halfspace"))
+        self.assertIn("llvmpipe", result["osmesa"]["renderer"])
+        self.assertEqual([scene["scene"] for scene in result["scenes"]], [1, 4])
+        for scene in result["scenes"]:
+            self.assertGreater(scene["ours_ms"], 0)
+            # Another picture altogether would differ in most pixels by more than a level.
+            self.assertLess(scene["standard_to_osmesa_float"]["above_8"], 10000)
+        page = WellFormed()
+        page.feed((self.out / "report.html").read_text())
+        self.assertEqual((page.open, len(page.images)), ([], 8))
+
+    def test_report_again_from_pictures(self):
+        run("demo", "--scene", 2, "--frames", 1, "--out", self.out)
+        before = json.loads((self.out / "demo.json").read_text())
+        (self.out / "demo.json").unlink()
+        self.assertEqual(run("demo", "--again", "--out", self.out).returncode, 0)
+        self.assertEqual(json.loads((self.out / "demo.json").read_text()), before)
+        (self.out / "osmesa" / "scene_2.png").unlink()
+        self.assertEqual(run("demo", "--again", "--out", self.out).returncode, 2)
+
+    def test_another_library_is_not_taken_for_ours(self):
+        done = run("demo", "--scene", 1, "--frames", 1, "--library", system_library_folder(), "--out", self.out)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("drew", done.stderr)
+
+    def test_bench(self):
+        done = run("bench", "scenes", "--scene", 1, "--pairs", 2, "--frames", 1, "--out", self.out)
+        self.assertIn(done.returncode, (0, 1), done.stdout + done.stderr)
+        result = json.loads((self.out / "scenes.json").read_text())
+        self.assertEqual(len(result["scenes"]), 1)
+        self.assertEqual(len(result["others"]), 4)
+        self.assertEqual(result["good"], done.returncode == 0)
+        row = result["scenes"][0]
+        self.assertEqual(row["ours"]["count"], 2)
+        self.assertAlmostEqual(row["ratio"], row["ours"]["median"] / row["theirs"]["median"])
+        self.assertEqual(row["good"], row["ratio"] <= row["target"])
+        memory = result["others"][-1]
+        self.assertGreater(memory["theirs"]["median"], memory["ours"]["median"])
+        self.assertTrue((self.out / "scenes.svg").read_text().startswith("<svg "))
+
+
+if __name__ == "__main__":
+    HALFSPACE = sys.argv.pop(1)
+    unittest.main()
