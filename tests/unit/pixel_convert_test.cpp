@@ -91,7 +91,7 @@ TEST(PixelDecode, EveryFormatAndTypeIsRoundedOnce) {
 }
 
 TEST(PixelDecode, EverySixteenBitValue) {
-  for (GLenum type : {GL_UNSIGNED_SHORT, GL_SHORT}) {
+  for (GLenum type : {GLenum{GL_UNSIGNED_SHORT}, GLenum{GL_SHORT}}) {
     const TypeRow row{type, 16, type == GL_SHORT};
     std::vector<uint16_t> values(65536);
     for (size_t i = 0; i < values.size(); ++i) values[i] = uint16_t(i);
@@ -114,7 +114,7 @@ TEST(PixelDecode, FloatsNextToEveryRoundingBoundary) {
   decode_pixels(describe(GL_RED, GL_FLOAT), false, reinterpret_cast<const std::byte*>(values.data()),
                 values.size(), rgba.data());
   for (size_t i = 0; i < values.size(); ++i)
-    ASSERT_EQ(int(rgba[i * 4]), byte_of(Real{values[i]})) << values[i];
+    ASSERT_EQ(int(rgba[i * 4]), byte_of(Real(values[i]))) << values[i];
 }
 
 TEST(PixelDecode, EveryPackedType) {
@@ -141,7 +141,7 @@ TEST(PixelDecode, EveryPackedType) {
 
 TEST(PixelDecode, IndicesLookUpTheInitialPixelMaps) {
   const Bytes source(16, std::byte{0xA5});
-  for (GLenum type : {GL_BITMAP, GL_UNSIGNED_BYTE, GL_SHORT, GL_FLOAT}) {
+  for (GLenum type : {GLenum{GL_BITMAP}, GLenum{GL_UNSIGNED_BYTE}, GLenum{GL_SHORT}, GLenum{GL_FLOAT}}) {
     std::vector<uint8_t> rgba(16, 0xEE);
     decode_pixels(describe(GL_COLOR_INDEX, type), false, source.data(), 4, rgba.data());
     EXPECT_EQ(rgba, std::vector<uint8_t>(16, 0)) << std::hex << type;
@@ -215,7 +215,7 @@ TEST(PixelEncode, EveryFormatAndTypeFromFloats) {
       encode_pixels(describe(format.format, type.type), false, rgba.data(), kPixels, out.data());
       for (size_t i = 0; i < kPixels * n; ++i) {
         Rgba color;
-        for (size_t c = 0; c < 4; ++c) color[c] = clamp01(Real{rgba[i / n * 4 + c]});
+        for (size_t c = 0; c < 4; ++c) color[c] = clamp01(Real(rgba[i / n * 4 + c]));
         const char component = format.components[i % n];
         const uint64_t bits = read_element(&out[i * size], size, false);
         const Real exact = picked(component, color);
@@ -238,9 +238,10 @@ TEST(PixelRoundTrip, EveryByteSurvivesEveryTypeThatCanHoldIt) {
     rgba[4 * i + 3] = uint8_t(i ^ 0x55);
   }
   // GL_BYTE has 128 values for [0, 1].
-  for (GLenum type : {GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_SHORT, GL_UNSIGNED_INT, GL_INT, GL_FLOAT,
-                      GL_UNSIGNED_INT_8_8_8_8, GL_UNSIGNED_INT_8_8_8_8_REV}) {
-    for (GLenum format : {GL_RGBA, GL_BGRA}) {
+  for (GLenum type : {GLenum{GL_UNSIGNED_BYTE}, GLenum{GL_UNSIGNED_SHORT}, GLenum{GL_SHORT},
+                      GLenum{GL_UNSIGNED_INT}, GLenum{GL_INT}, GLenum{GL_FLOAT},
+                      GLenum{GL_UNSIGNED_INT_8_8_8_8}, GLenum{GL_UNSIGNED_INT_8_8_8_8_REV}}) {
+    for (GLenum format : {GLenum{GL_RGBA}, GLenum{GL_BGRA}}) {
       for (bool swap : {false, true}) {
         const PixelFormat described = describe(format, type);
         Bytes memory(256 * described.pixel_bytes);

@@ -61,7 +61,7 @@ inline const std::vector<PackedRow> kPackedTypes = {
 
 inline Real power_of_two_less_one(int bits) { return std::ldexp(Real{1}, bits) - 1; }
 inline Real clamp01(Real v) { return v >= 0 ? (v <= 1 ? v : 1) : 0; }
-inline Real round_half_up(Real v) { return std::floor(v + Real{0.5}); }
+inline Real round_half_up(Real v) { return std::floor(v + Real(0.5)); }
 
 // An element of `size` bytes as a number, in the machine's byte order or, swapped, in the other one.
 inline uint64_t read_element(const std::byte* p, size_t size, bool swapped) {
@@ -75,7 +75,7 @@ inline uint64_t read_element(const std::byte* p, size_t size, bool swapped) {
 inline Real component_value(const TypeRow& type, uint64_t bits) {
   if (type.is_float) {
     const float f = std::bit_cast<float>(uint32_t(bits));
-    return std::isnan(f) ? 0 : Real{f};
+    return std::isnan(f) ? 0 : Real(f);
   }
   const Real max = power_of_two_less_one(type.bits);
   if (!type.is_signed) return Real(bits) / max;

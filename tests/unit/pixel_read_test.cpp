@@ -147,7 +147,7 @@ TEST_F(PixelReadTest, PixelsOutsideTheWindowAreLeftAlone) {
   };
   for (const Window& w : {Window{-4, -3, 12, 9}, Window{kWidth - 5, kHeight - 2, 11, 6},
                           Window{-2, -2, 50, 40}, Window{100, 0, 4, 4}, Window{-9, 0, 4, 4}}) {
-    for (GLenum format : {GL_RGBA, GL_RGB, GL_DEPTH_COMPONENT}) {
+    for (GLenum format : {GLenum{GL_RGBA}, GLenum{GL_RGB}, GLenum{GL_DEPTH_COMPONENT}}) {
       const size_t n = format == GL_RGBA ? 4 : format == GL_RGB ? 3 : 1;
       Bytes out(size_t(w.width * w.height) * n, 0xCD);
       read(w.x, w.y, w.width, w.height, format, GL_UNSIGNED_BYTE, out.data());

@@ -392,7 +392,8 @@ TEST_F(TextureImageTest, ProxiesAnswerWithoutErrors) {
 
 TEST_F(TextureImageTest, QueriesStartAndFailAsTheSpecSays) {
   EXPECT_EQ(query(GL_TEXTURE_INTERNAL_FORMAT), 1);
-  for (GLenum pname : {GL_TEXTURE_WIDTH, GL_TEXTURE_HEIGHT, GL_TEXTURE_BORDER, GL_TEXTURE_LUMINANCE_SIZE}) {
+  for (GLenum pname : {GLenum{GL_TEXTURE_WIDTH}, GLenum{GL_TEXTURE_HEIGHT}, GLenum{GL_TEXTURE_BORDER},
+                       GLenum{GL_TEXTURE_LUMINANCE_SIZE}}) {
     EXPECT_EQ(query(pname), 0);
   }
   EXPECT_GL(GL_NO_ERROR);

@@ -98,7 +98,7 @@ class TextureMemoryTest : public PixelTest {
 };
 
 TEST_F(TextureMemoryTest, TheOldImageStands) {
-  for (GLenum format : {GL_RGBA, GL_RGB}) {  // as it lies, and converted
+  for (GLenum format : {GLenum{GL_RGBA}, GLenum{GL_RGB}}) {  // as it lies, and converted
     for (bool hold_view : {false, true}) {
       const auto view = hold_view ? current_texture_view(gl()) : nullptr;
       const int failures = fail_everywhere(
