@@ -36,6 +36,14 @@ struct FragmentParams {
 // Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded.
 enum Slot { kR, kG, kB, kA, kS, kT, kTexR, kTexG, kTexB, kTexA, kLambda, kSlotCount };
 
+// Fragments of small triangles waiting to be shaded together. Filled by raster/tile/packing.inl.
+struct alignas(64) PixelQueue {
+  static constexpr int kCapacity = kBlockPixels, kSlack = 16;  // a whole vector may be stored at the last place
+  float plane[kMaxPlanes][kCapacity + kSlack];                 // values of planes 1 and up
+  int32_t offset[kCapacity + kSlack];                          // pixel in the tile
+  int count = 0;
+};
+
 struct alignas(64) BlockContext {
   float slot[kSlotCount][kBlockPixels];
   const FragmentParams* params;
@@ -44,8 +52,9 @@ struct alignas(64) BlockContext {
   double dx, dy;          // centre of the block's lowest-left pixel minus the anchor
   uint64_t live;          // bit (y % 8) * 8 + x % 8
   uint32_t* depth;        // the block's 64 pixels
-  uint32_t* color;        // rgba8
+  uint32_t* color;        // rgba8; with a queue, of the tile
   float* color_planes;    // rgba32f
+  const PixelQueue* queue;  // packed fragments instead of the block's, or unused
 };
 
 using BlockFunction = void (*)(BlockContext&);

@@ -33,20 +33,20 @@ struct SlotRange {
 inline constexpr SlotRange kSlotRanges[] = {
     {kColor, kR, kA}, {kCoord, kS, kT}, {kTexel, kTexR, kTexA}, {kLevel, kLambda, kLambda}};
 
-template <class Body, unsigned kReads, unsigned kWrites>
+template <class L, class Body, unsigned kReads, unsigned kWrites>
 void RunAlone(BlockContext& c) {
   for (int i = 0; i < kBlockPixels; i += kLanes) {
-    if (!GroupIsLive(c, i)) continue;
+    if (!L::IsLive(c, i)) continue;
     Lanes v;
-    v.live = LoadLive(c, i);
+    v.live = L::LoadLive(c, i);
     for (const SlotRange& range : kSlotRanges)
       if ((kReads & range.group) != 0)
         for (int s = range.first; s <= range.last; ++s) v.slot[s] = hn::Load(DF(), c.slot[s] + i);
-    Body::Run(c, i, v);
+    Body::template Run<L>(c, i, v);
     for (const SlotRange& range : kSlotRanges)
       if ((kWrites & range.group) != 0)
         for (int s = range.first; s <= range.last; ++s) hn::Store(v.slot[s], DF(), c.slot[s] + i);
-    if constexpr (Body::kKills) StoreLive(c, i, v.live);
+    if constexpr (Body::kKills) L::StoreLive(c, i, v.live);
   }
 }
 
@@ -67,56 +67,68 @@ struct BodyOf;
 #undef STAGE
 
 // Runs one stage on a group; false when no lane is left.
-template <StageId id>
+template <class L, StageId id>
 HWY_INLINE bool Step(const BlockContext& c, int i, Lanes& v) {
-  BodyOf<id>::Type::Run(c, i, v);
+  BodyOf<id>::Type::template Run<L>(c, i, v);
   if constexpr (BodyOf<id>::Type::kKills) return !hn::AllFalse(DF(), v.live);
   return true;
 }
 
-template <StageId... ids>
+template <class L, StageId... ids>
 void RunFused(BlockContext& c) {
   for (int i = 0; i < kBlockPixels; i += kLanes) {
-    if (!GroupIsLive(c, i)) continue;
+    if (!L::IsLive(c, i)) continue;
     Lanes v;
-    v.live = LoadLive(c, i);
-    (Step<ids>(c, i, v) && ...);
+    v.live = L::LoadLive(c, i);
+    (Step<L, ids>(c, i, v) && ...);
   }
 }
 
-BlockFunction StageFunction(StageId id) {
-  static constexpr BlockFunction kFunctions[] = {
-#define STAGE(id, body, reads, writes) &RunAlone<BodyOf<StageId::id>::Type, (reads), (writes)>,
+// One row a stage, one row a fused list; `packed` is null where the lanes cannot be packed.
+struct Entry {
+  StageId ids[kMaxStages];
+  int count;
+  BlockFunction block, packed;
+};
+
+template <StageId id, unsigned kReads, unsigned kWrites>
+constexpr Entry AloneEntry() {
+  using Body = typename BodyOf<id>::Type;
+  Entry entry{{id}, 1, &RunAlone<BlockLanes, Body, kReads, kWrites>, nullptr};
+  if constexpr (Body::kPacks) entry.packed = &RunAlone<PackedLanes, Body, kReads, kWrites>;
+  return entry;
+}
+
+template <StageId... ids>
+constexpr Entry FusedEntry() {
+  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), &RunFused<BlockLanes, ids...>, nullptr};
+  if constexpr ((BodyOf<ids>::Type::kPacks && ...)) entry.packed = &RunFused<PackedLanes, ids...>;
+  return entry;
+}
+
+KernelPair StageKernels(StageId id) {
+  static constexpr Entry kEntries[] = {
+#define STAGE(id, body, reads, writes) AloneEntry<StageId::id, (reads), (writes)>(),
 #include "raster/fragment/stages.def"
 #undef STAGE
   };
-  return kFunctions[static_cast<size_t>(id)];
+  const Entry& entry = kEntries[static_cast<size_t>(id)];
+  return {entry.block, entry.packed};
 }
 
-struct FusedEntry {
-  StageId ids[kMaxStages];
-  int count;
-  BlockFunction function;
-};
-
-template <StageId... ids>
-constexpr FusedEntry MakeFused() {
-  return {{ids...}, static_cast<int>(sizeof...(ids)), &RunFused<ids...>};
-}
-
-BlockFunction FusedFunction(const StageList& list) {
+KernelPair FusedKernels(const StageList& list) {
   using enum StageId;
-  static constexpr FusedEntry kEntries[] = {
-#define FUSED(...) MakeFused<__VA_ARGS__>(),
+  static constexpr Entry kEntries[] = {
+#define FUSED(...) FusedEntry<__VA_ARGS__>(),
 #include "raster/fragment/fused.def"
 #undef FUSED
   };
-  for (const FusedEntry& entry : kEntries) {
+  for (const Entry& entry : kEntries) {
     bool same = entry.count == list.count;
     for (int i = 0; same && i < list.count; ++i) same = entry.ids[i] == list.ids.data()[i];
-    if (same) return entry.function;
+    if (same) return {entry.block, entry.packed};
   }
-  return nullptr;
+  return {nullptr, nullptr};
 }
 
 }  // namespace HWY_NAMESPACE
@@ -126,13 +138,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace halfspace::raster {
 namespace {
-using StageSelector = BlockFunction (*)(StageId);
-using FusedSelector = BlockFunction (*)(const StageList&);
-StageSelector select_stage() { HALFSPACE_SELECT_FUNCTION(StageFunction) }
-FusedSelector select_fused() { HALFSPACE_SELECT_FUNCTION(FusedFunction) }
+using StageSelector = KernelPair (*)(StageId);
+using FusedSelector = KernelPair (*)(const StageList&);
+StageSelector select_stage() { HALFSPACE_SELECT_FUNCTION(StageKernels) }
+FusedSelector select_fused() { HALFSPACE_SELECT_FUNCTION(FusedKernels) }
 }  // namespace
 
-BlockFunction stage_function(StageId id) { return select_stage()(id); }
-BlockFunction fused_function(const StageList& list) { return select_fused()(list); }
+KernelPair stage_kernels(StageId id) { return select_stage()(id); }
+KernelPair fused_kernels(const StageList& list) { return select_fused()(list); }
 }  // namespace halfspace::raster
 #endif

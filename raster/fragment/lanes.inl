@@ -39,15 +39,6 @@ struct Lanes {
   MF live;
 };
 
-HWY_INLINE MF LoadLive(const BlockContext& c, int i) {
-  const auto bits = static_cast<uint8_t>(c.live >> i);
-#if HWY_TARGET == HWY_SCALAR
-  return hn::MaskFromVec(hn::BitCast(DF(), hn::Set(DU(), (bits & 1) != 0 ? ~0u : 0u)));
-#else
-  return hn::LoadMaskBits(DF(), &bits);
-#endif
-}
-
 HWY_INLINE unsigned MaskBits(MF mask) {
 #if HWY_TARGET == HWY_SCALAR
   return hn::AllFalse(DF(), mask) ? 0u : 1u;
@@ -56,15 +47,6 @@ HWY_INLINE unsigned MaskBits(MF mask) {
   hn::StoreMaskBits(DF(), mask, bits);
   return bits[0] & ((1u << kLanes) - 1);
 #endif
-}
-
-HWY_INLINE void StoreLive(BlockContext& c, int i, MF mask) {
-  const uint64_t field = ((uint64_t{1} << kLanes) - 1) << i;
-  c.live = (c.live & ~field) | (uint64_t{MaskBits(mask)} << i);
-}
-
-HWY_INLINE bool GroupIsLive(const BlockContext& c, int i) {
-  return ((c.live >> i) & ((uint64_t{1} << kLanes) - 1)) != 0;
 }
 
 template <CompareFunc F, class V>
@@ -79,17 +61,7 @@ HWY_INLINE auto Compare(V a, V b) {
   if constexpr (F == CompareFunc::never) return hn::Ne(a, a);
 }
 
-// --- planes at the pixels of a group: (f0 + dfdy * dy) + dfdx * dx, always in this order.
-
-HWY_INLINE VF PlaneAt(const BlockContext& c, int plane, int i) {
-  const int k = c.lane;
-  const SetupBatch& s = *c.setup;
-  const float dy = static_cast<float>(c.dy) + static_cast<float>(i / kBlockSize);
-  const float row = s.f0_f[plane][k] + s.dfdy_f[plane][k] * dy;
-  const VF dx = hn::Iota(DF(), static_cast<float>(c.dx) + static_cast<float>(i % kBlockSize));
-  return hn::Add(hn::Set(DF(), row), hn::Mul(hn::Set(DF(), s.dfdx_f[plane][k]), dx));
-}
-
+// (f0 + dfdy * dy) + dfdx * dx, always in this order, in double. Rows of a block only.
 HWY_INLINE VD PlaneAtDouble(const BlockContext& c, int plane, int i) {
   const int k = c.lane;
   const SetupBatch& s = *c.setup;
@@ -102,3 +74,61 @@ HWY_INLINE VD PlaneAtDouble(const BlockContext& c, int plane, int i) {
   return v;
 }
 
+// --- Where a stage's lanes come from. Both give the same bits for the same pixel.
+
+// Rows of one block, one primitive: planes are evaluated here, memory is contiguous.
+struct BlockLanes {
+  static HWY_INLINE bool IsLive(const BlockContext& c, int i) {
+    return ((c.live >> i) & ((uint64_t{1} << kLanes) - 1)) != 0;
+  }
+  static HWY_INLINE MF LoadLive(const BlockContext& c, int i) {
+    const auto bits = static_cast<uint8_t>(c.live >> i);
+#if HWY_TARGET == HWY_SCALAR
+    return hn::MaskFromVec(hn::BitCast(DF(), hn::Set(DU(), (bits & 1) != 0 ? ~0u : 0u)));
+#else
+    return hn::LoadMaskBits(DF(), &bits);
+#endif
+  }
+  static HWY_INLINE void StoreLive(BlockContext& c, int i, MF mask) {
+    const uint64_t field = ((uint64_t{1} << kLanes) - 1) << i;
+    c.live = (c.live & ~field) | (uint64_t{MaskBits(mask)} << i);
+  }
+  static HWY_INLINE VF Plane(const BlockContext& c, int plane, int i) {
+    const int k = c.lane;
+    const SetupBatch& s = *c.setup;
+    const float dy = static_cast<float>(c.dy) + static_cast<float>(i / kBlockSize);
+    const float row = s.f0_f[plane][k] + s.dfdy_f[plane][k] * dy;
+    const VF dx = hn::Iota(DF(), static_cast<float>(c.dx) + static_cast<float>(i % kBlockSize));
+    return hn::Add(hn::Set(DF(), row), hn::Mul(hn::Set(DF(), s.dfdx_f[plane][k]), dx));
+  }
+  static HWY_INLINE VF FlatColor(const BlockContext& c, int channel, int) {
+    return hn::Set(DF(), c.setup->flat[channel][c.lane]);
+  }
+  static HWY_INLINE void StoreRgba8(const BlockContext& c, int i, VI packed, MF live) {
+    int32_t* memory = reinterpret_cast<int32_t*>(c.color) + i;
+    const DI d;
+    hn::Store(hn::IfThenElse(hn::RebindMask(d, live), packed, hn::Load(d, memory)), d, memory);
+  }
+};
+
+// Fragments of many small triangles, packed after their depth test; plane values were evaluated when they came in.
+// Stored in the order of the triangles, so where two fragments share a pixel the later one stays.
+struct PackedLanes {
+  static HWY_INLINE bool IsLive(const BlockContext& c, int i) { return i < c.queue->count; }
+  static HWY_INLINE MF LoadLive(const BlockContext&, int) { return hn::Eq(hn::Zero(DF()), hn::Zero(DF())); }
+  static HWY_INLINE void StoreLive(BlockContext&, int, MF) {}
+  static HWY_INLINE VF Plane(const BlockContext& c, int plane, int i) {
+    return hn::Load(DF(), c.queue->plane[plane] + i);
+  }
+  static HWY_INLINE VF FlatColor(const BlockContext& c, int channel, int i) {
+    return Plane(c, c.params->color_plane + channel, i);
+  }
+  static HWY_INLINE void StoreRgba8(const BlockContext& c, int i, VI packed, MF) {
+    alignas(64) int32_t pixels[8];
+    hn::Store(packed, DI(), pixels);
+    const int32_t* offset = c.queue->offset + i;
+    const int left = c.queue->count - i;
+    for (int j = 0; j < kLanes; ++j)
+      if (j < left) c.color[offset[j]] = static_cast<uint32_t>(pixels[j]);
+  }
+};

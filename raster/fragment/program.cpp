@@ -139,11 +139,25 @@ FragmentParams make_params(const DrawState& state, const VertexLayout& layout) {
 
 BlockProgram make_block_program(const StageList& list) {
   BlockProgram program;
-  program.fused = fused_function(list);
+  program.fused = fused_kernels(list).block;
   program.count = list.count;
   for (int i = 0; i < list.count; ++i)
-    program.stages[static_cast<size_t>(i)] = stage_function(list.ids[static_cast<size_t>(i)]);
+    program.stages[static_cast<size_t>(i)] = stage_kernels(list.ids[static_cast<size_t>(i)]).block;
   return program;
+}
+
+// The list without its depth test, on packed fragments. False if one of its stages needs whole blocks.
+bool make_packed_program(const StageList& list, bool depth_first, BlockProgram& program) {
+  StageList rest;
+  for (int i = depth_first ? 1 : 0; i < list.count; ++i) rest.add(list.ids[static_cast<size_t>(i)]);
+  program.fused = fused_kernels(rest).packed;
+  program.count = rest.count;
+  for (int i = 0; i < rest.count; ++i) {
+    const BlockFunction stage = stage_kernels(rest.ids[static_cast<size_t>(i)]).packed;
+    if (stage == nullptr) return false;
+    program.stages[static_cast<size_t>(i)] = stage;
+  }
+  return rest.count > 0;
 }
 
 }  // namespace
@@ -178,6 +192,12 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
   for (unsigned variant = 0; variant < kVariantCount; ++variant)
     program.variants[variant] = make_block_program(list_stages(state, layout, format, variant));
   const bool depth = needs_depth(state.depth);
+  program.depth = state.depth;
+  program.depth.test = depth;
+  program.packs = !needs_alpha_test(state.alpha_test);
+  for (unsigned variant = 0; variant <= kAffine; ++variant)
+    program.packs = program.packs && make_packed_program(list_stages(state, layout, format, variant), depth,
+                                                         program.packed[variant]);
   const CompareFunc func = state.depth.func;
   const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
   program.writes_color = !state.color_mask.none();

@@ -42,6 +42,10 @@ struct BlockProgram {
 
 struct PipelineProgram {
   BlockProgram variants[kVariantCount];
+  // Small triangles: depth test first, then these on packed fragments. [0] perspective, [kAffine] affine, in float.
+  BlockProgram packed[2];
+  bool packs = false;
+  DepthState depth;  // the test that packing does; test == false: none
   FragmentParams params;
   bool reads_depth = false, writes_depth = false, writes_color = false;
   bool rejects_deeper = false;  // depth test is LESS or LEQUAL and runs first: coarse z may drop a block
@@ -55,8 +59,12 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
 
 PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format);
 
-// Per-ISA code of the stages, and the fused kernel for a list or null (raster/fragment/fused.def).
-BlockFunction stage_function(StageId id);
-BlockFunction fused_function(const StageList& list);
+// Per-ISA code of a stage alone, or of a whole list fused (raster/fragment/fused.def; null if it is not there): on the
+// rows of a block, and on packed fragments (null where that cannot be).
+struct KernelPair {
+  BlockFunction block, packed;
+};
+KernelPair stage_kernels(StageId id);
+KernelPair fused_kernels(const StageList& list);
 
 }  // namespace halfspace::raster

@@ -17,16 +17,16 @@ enum Variant : uint8_t { kAffine = 1, kDouble = 2, kVariantCount = 4 };
 struct alignas(64) SetupBatch {
   // Edge functions at the centre of the tile's lowest-left pixel, shifted right by the sub-pixel bits, with the fill
   // rule's bias in: a pixel is inside if all three are >= 0. Steps are per pixel.
-  int32_t edge[3][kSetupLanes], step_x[3][kSetupLanes], step_y[3][kSetupLanes];
+  alignas(64) int32_t edge[3][kSetupLanes], step_x[3][kSetupLanes], step_y[3][kSetupLanes];
   // Pixels to look at, relative to the tile, inclusive; max < min when there are none.
-  int32_t min_x[kSetupLanes], min_y[kSetupLanes], max_x[kSetupLanes], max_y[kSetupLanes];
+  alignas(64) int32_t min_x[kSetupLanes], min_y[kSetupLanes], max_x[kSetupLanes], max_y[kSetupLanes];
   // Centre of the tile's lowest-left pixel minus the anchor vertex, in pixels: exact also as floats.
-  double anchor_x[kSetupLanes], anchor_y[kSetupLanes];
+  alignas(64) double anchor_x[kSetupLanes], anchor_y[kSetupLanes];
   // Planes: [0] depth in units of 2^-24 plus one half, [1] 1/w, [2 + i] attribute i (divided by w unless affine;
   // colours in 0..255).
-  double f0[kMaxPlanes][kSetupLanes], dfdx[kMaxPlanes][kSetupLanes], dfdy[kMaxPlanes][kSetupLanes];
-  float f0_f[kMaxPlanes][kSetupLanes], dfdx_f[kMaxPlanes][kSetupLanes], dfdy_f[kMaxPlanes][kSetupLanes];
-  float flat[4][kSetupLanes];  // colour of the provoking vertex, 0..255
+  alignas(64) double f0[kMaxPlanes][kSetupLanes], dfdx[kMaxPlanes][kSetupLanes], dfdy[kMaxPlanes][kSetupLanes];
+  alignas(64) float f0_f[kMaxPlanes][kSetupLanes], dfdx_f[kMaxPlanes][kSetupLanes], dfdy_f[kMaxPlanes][kSetupLanes];
+  alignas(64) float flat[4][kSetupLanes];  // colour of the provoking vertex, 0..255
   uint8_t variant[kSetupLanes];
 };
 

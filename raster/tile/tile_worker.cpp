@@ -13,8 +13,10 @@ namespace halfspace::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+#include "raster/tile/setup_gather.inl"
 #include "raster/tile/setup.inl"
 #include "raster/tile/triangle.inl"
+#include "raster/tile/packing.inl"
 
 // What is the same for all primitives of a tile, and the scratch they share.
 struct TileContext {
@@ -22,13 +24,16 @@ struct TileContext {
   TileState* state;
   uint32_t tile;
   int x, y;  // lowest pixel
-  const PipelineProgram* program;
+  const PipelineProgram* program = nullptr;
   Rect limit;          // the draw's bounds relative to the tile, within it
   bool limit_is_tile;
+  int plane_count;
+  bool flat_color;
   TileStatistics* statistics;
   BlockContext block;
   SetupBatch setup;
   SetupInput input;
+  Packer packer;
 };
 
 // The plane's least (sign = -1) or greatest (sign = 1) depth over the pixel centres of the block.
@@ -95,9 +100,55 @@ HWY_INLINE uint64_t LimitMask(const Rect& limit, int block) {
   return mask;
 }
 
-void RunTriangle(TileContext& t, int lane) {
+// Shades what waits. Anything that draws otherwise does this first, so that order is kept.
+void FlushPacked(TileContext& t) {
+  PixelQueue& queue = t.packer.queue;
+  if (queue.count == 0) return;
+  BlockContext& c = t.block;
+  c.queue = &queue;
+  c.color = t.framebuffer->color_tile<uint32_t>(t.tile);
+  c.live = ~uint64_t{0};
+  t.program->packed[t.packer.variant].run(c);
+  queue.count = 0;
+}
+
+// Blocks the pixels from (x0, y0) to (x1, y1) lie in; they span at most two each way.
+HWY_INLINE uint64_t WindowBlocks(int x0, int y0, int x1, int y1) {
+  const uint64_t columns = uint64_t{1} << (x0 / kBlockSize) | uint64_t{1} << (x1 / kBlockSize);
+  return columns << (y0 / kBlockSize * 8) | columns << (y1 / kBlockSize * 8);
+}
+
+HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
+  if (t.program->reads_depth && (t.state->depth_is_clear & blocks) != 0) t.framebuffer->settle_depth(t.tile, blocks);
+  if ((t.state->color_is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks);
+  if (t.program->depth_may_grow)
+    for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) t.state->depth_max[__builtin_ctzll(todo)] = kDepthMax;
+}
+
+void PackTriangle(TileContext& t, int lane) {
   const SetupBatch& s = t.setup;
-  if (s.max_x[lane] < s.min_x[lane] || s.max_y[lane] < s.min_y[lane]) return;
+  const int x = s.min_x[lane], y = s.min_y[lane];
+  const TriangleWalk walk(s, lane);
+  const uint64_t mask = walk.Window(x, y, s.max_x[lane] - x + 1, s.max_y[lane] - y + 1);
+  if (mask == 0) return;
+  Packer& packer = t.packer;
+  const int count = __builtin_popcountll(mask);
+  if (packer.variant != s.variant[lane] || packer.queue.count + count > PixelQueue::kCapacity) {
+    FlushPacked(t);
+    packer.variant = s.variant[lane];
+  }
+  PrepareWindow(t, WindowBlocks(x, y, s.max_x[lane], s.max_y[lane]));
+  t.statistics->fragments += static_cast<uint64_t>(count);
+  uint8_t list[kWindow * kWindow + 8];
+  ListBits(mask, list);
+  const int first = packer.queue.count;
+  packer.Append(s, lane, x, y, list, count, *t.program, t.plane_count,
+                t.program->reads_depth ? t.framebuffer->depth_tile(t.tile) : nullptr);
+  if (t.flat_color) packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
+}
+
+void WalkTriangle(TileContext& t, int lane) {
+  const SetupBatch& s = t.setup;
   const TriangleWalk walk(s, lane);
   for (int by = s.min_y[lane] / kBlockSize; by <= s.max_y[lane] / kBlockSize; ++by) {
     for (int bx = s.min_x[lane] / kBlockSize; bx <= s.max_x[lane] / kBlockSize; ++bx) {
@@ -108,8 +159,21 @@ void RunTriangle(TileContext& t, int lane) {
   }
 }
 
+void RunTriangle(TileContext& t, int lane) {
+  const SetupBatch& s = t.setup;
+  const int width = s.max_x[lane] - s.min_x[lane] + 1, height = s.max_y[lane] - s.min_y[lane] + 1;
+  if (width <= 0 || height <= 0) return;
+  if (t.program->packs && width <= kWindow && height <= kWindow && (s.variant[lane] & kDouble) == 0) {
+    PackTriangle(t, lane);
+  } else {
+    FlushPacked(t);
+    WalkTriangle(t, lane);
+  }
+}
+
 void RunLineOrPoint(TileContext& t, const PrimitiveRef& ref, const Segment& segment, const DrawRecord& draw,
                     int lane) {
+  FlushPacked(t);
   TileCoverage coverage;
   const size_t stride = draw.vertices.layout.stride();
   int32_t x[2], y[2];
@@ -134,12 +198,15 @@ void RunLineOrPoint(TileContext& t, const PrimitiveRef& ref, const Segment& segm
 }
 
 void SelectDraw(TileContext& t, const DrawRecord& draw) {
+  if (t.program != draw.program) FlushPacked(t);
   const Rect tile{t.x, t.y, t.x + kTileSize, t.y + kTileSize};
   const Rect cut = intersect(tile, draw.bounds);
   t.limit = {cut.x0 - t.x, cut.y0 - t.y, cut.x1 - t.x, cut.y1 - t.y};
   t.limit_is_tile = cut == tile;
   t.program = draw.program;
   t.block.params = &draw.program->params;
+  t.plane_count = 2 + draw.vertices.layout.attribute_count;
+  t.flat_color = draw.vertices.layout.color >= 0 && draw.state->raster.flat_shading;
 }
 
 void RunSegment(TileContext& t, const Segment& segment) {
@@ -179,6 +246,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.statistics = &statistics;
   t.block.setup = &t.setup;
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
+  FlushPacked(t);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -31,6 +31,17 @@ struct TriangleWalk {
     return Rows(e, first, last);
   }
 
+  // Pixels inside, of the window of `width` x `height` (at most 8 each) pixels whose first one is (x, y) of the tile:
+  // bit 8 * row + column.
+  HWY_INLINE uint64_t Window(int x, int y, int width, int height) const {
+    int32_t e[3];
+    for (int k = 0; k < 3; ++k) e[k] = edge[k] + step_x[k] * x + step_y[k] * y;
+    uint64_t mask = Rows(e, 0, 3);
+    if (height > 4) mask |= Rows(e, 4, 7);
+    mask &= 0x0101010101010101u * ((1u << width) - 1);
+    return height < 8 ? mask & ((uint64_t{1} << (8 * height)) - 1) : mask;
+  }
+
  private:
   HWY_INLINE uint64_t Rows(const int32_t e[3], int first, int last) const {
     using D = hn::CappedTag<int32_t, 8>;

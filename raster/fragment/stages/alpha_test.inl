@@ -1,7 +1,8 @@
 // Alpha test (spec 4.1.4).
 
 struct AlphaTest {
-  static constexpr bool kKills = true;
+  static constexpr bool kKills = true, kPacks = false;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
     const VF reference = hn::Set(DF(), c.params->alpha_reference);
     v.live = hn::And(v.live, Passes(c.params->alpha_func, v.slot[kA], reference));

@@ -23,7 +23,8 @@ HWY_INLINE V BlendWeight(D d, BlendFactor factor, const V* s, const V* dst, int 
 HWY_INLINE VI RoundToByte(VF v) { return hn::ConvertTo(DI(), hn::Add(v, hn::Set(DF(), 0.5f))); }
 
 struct BlendRgba8 {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = false;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
     const DI d;
     const VI old = hn::BitCast(d, hn::Load(DU(), c.color + i));
@@ -43,7 +44,8 @@ struct BlendRgba8 {
 };
 
 struct BlendRgba32f {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = false;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
     const DF d;
     const VF one = hn::Set(d, 255.0f);

@@ -2,17 +2,18 @@
 
 template <unsigned kVariant, bool kProjective>
 struct Coord {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
     const int first = c.params->tex_plane;
     const int divisor = kProjective ? first + 2 : 1;
     if constexpr (kVariant == kAffine && !kProjective) {
-      v.slot[kS] = PlaneAt(c, first, i);
-      v.slot[kT] = PlaneAt(c, first + 1, i);
+      v.slot[kS] = L::Plane(c, first, i);
+      v.slot[kT] = L::Plane(c, first + 1, i);
     } else if constexpr ((kVariant & kDouble) == 0) {
-      const VF w = hn::Div(hn::Set(DF(), 1.0f), PlaneAt(c, divisor, i));
-      v.slot[kS] = hn::Mul(PlaneAt(c, first, i), w);
-      v.slot[kT] = hn::Mul(PlaneAt(c, first + 1, i), w);
+      const VF w = hn::Div(hn::Set(DF(), 1.0f), L::Plane(c, divisor, i));
+      v.slot[kS] = hn::Mul(L::Plane(c, first, i), w);
+      v.slot[kT] = hn::Mul(L::Plane(c, first + 1, i), w);
     } else {
       v.slot[kS] = DoubleAt(c, first, divisor, c.params->sampler.wrap_s, i);
       v.slot[kT] = DoubleAt(c, first + 1, divisor, c.params->sampler.wrap_t, i);

@@ -8,7 +8,8 @@ HWY_INLINE VI DepthAt(const BlockContext& c, int i) {
 
 template <CompareFunc F, bool kWrite>
 struct DepthTest {
-  static constexpr bool kKills = true;
+  static constexpr bool kKills = true, kPacks = false;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
     const DI d;
     int32_t* memory = reinterpret_cast<int32_t*>(c.depth) + i;

@@ -6,7 +6,8 @@ HWY_INLINE VF Mix(VF a, VF b, VF weight) { return hn::Add(a, Scaled(hn::Sub(b, a
 // kRgb, kAlpha: whether the texture's base format has them.
 template <EnvMode kMode, bool kRgb, bool kAlpha>
 struct Env {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = true;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
     for (int k = 0; k < 3; ++k) {
       VF& f = v.slot[kR + k];
@@ -27,7 +28,8 @@ struct Env {
 
 // GL_BLEND with an intensity texture mixes alpha too.
 struct EnvBlendIntensity {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = true;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
     for (int k = 0; k < 4; ++k)
       v.slot[kR + k] = Mix(v.slot[kR + k], hn::Set(DF(), c.params->env_color[k]), v.slot[kTexR + k]);

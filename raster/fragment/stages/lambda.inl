@@ -21,8 +21,9 @@ HWY_INLINE VF Log2(VF x) {
 
 template <bool kProjective>
 struct Lambda {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = false;
   // d(S/Q)/dx = (dS/dx - s * dQ/dx) / Q, in texels of level 0; in double since the difference may cancel.
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
     const DF d;
     const SetupBatch& setup = *c.setup;

@@ -22,8 +22,9 @@ struct LaneLevels {
 };
 
 struct SampleLevels {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = false;
 
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
     const DF d;
     const DI di;

@@ -29,6 +29,16 @@ HWY_INLINE void UnpackTexels(VU texel, Lanes& v) {
   v.slot[kTexA] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<24>(texel)));
 }
 
+#if HWY_MAX_BYTES >= 32 && HWY_TARGET != HWY_SCALAR
+// Two neighbouring texels, eight channels.
+HWY_INLINE hn::Vec<hn::FixedTag<float, 8>> TexelPair(const uint32_t* texel) {
+  const hn::FixedTag<uint8_t, 8> bytes;
+  const hn::FixedTag<int32_t, 8> ints;
+  const hn::FixedTag<float, 8> floats;
+  return hn::ConvertTo(floats, hn::PromoteTo(ints, hn::LoadU(bytes, reinterpret_cast<const uint8_t*>(texel))));
+}
+#endif
+
 // One bilinear lookup; texel pairs come by 64-bit loads. Rows first, then columns, both in float.
 HWY_INLINE void Bilinear(const uint32_t* texel, int pitch, float wu, float wv, float* rgba) {
 #if HWY_TARGET == HWY_SCALAR
@@ -41,18 +51,14 @@ HWY_INLINE void Bilinear(const uint32_t* texel, int pitch, float wu, float wv, f
   }
 #else
   const hn::FixedTag<float, 4> d4;
-  const hn::FixedTag<int32_t, 4> i4;
 #if HWY_MAX_BYTES >= 32
   const hn::FixedTag<float, 8> d8;
-  const hn::FixedTag<int32_t, 8> i8;
-  const hn::FixedTag<uint8_t, 8> u8;
-  const auto low = hn::ConvertTo(d8, hn::PromoteTo(i8, hn::LoadU(u8, reinterpret_cast<const uint8_t*>(texel))));
-  const auto high =
-      hn::ConvertTo(d8, hn::PromoteTo(i8, hn::LoadU(u8, reinterpret_cast<const uint8_t*>(texel + pitch))));
+  const auto low = TexelPair(texel), high = TexelPair(texel + pitch);
   const auto pair = hn::Add(low, hn::Mul(hn::Sub(high, low), hn::Set(d8, wv)));
   const auto left = hn::LowerHalf(d4, pair), right = hn::UpperHalf(d4, pair);
 #else
   const hn::FixedTag<uint8_t, 4> u4;
+  const hn::FixedTag<int32_t, 4> i4;
   auto load = [&](const uint32_t* t) {
     return hn::ConvertTo(d4, hn::PromoteTo(i4, hn::LoadU(u4, reinterpret_cast<const uint8_t*>(t))));
   };
@@ -61,13 +67,35 @@ HWY_INLINE void Bilinear(const uint32_t* texel, int pitch, float wu, float wv, f
   const auto left = hn::Add(a, hn::Mul(hn::Sub(load(texel + pitch), a), wv4));
   const auto right = hn::Add(b, hn::Mul(hn::Sub(load(texel + pitch + 1), b), wv4));
 #endif
-  (void)i4;
   hn::Store(hn::Add(left, hn::Mul(hn::Sub(right, left), hn::Set(d4, wu))), d4, rgba);
 #endif
 }
 
+// All lanes of a group, two at a time: what is stored as 32 bytes is loaded as 32 bytes.
+HWY_INLINE void BilinearGroup(const LevelRef& level, const int32_t* offsets, const float* wu, const float* wv,
+                              float* rgba) {
+#if HWY_MAX_BYTES >= 32 && HWY_TARGET != HWY_SCALAR
+  const hn::FixedTag<float, 8> d8;
+  const hn::FixedTag<float, 4> d4;
+  for (int j = 0; j < kLanes; j += 2) {
+    const uint32_t *a = level.texels + offsets[j], *b = level.texels + offsets[j + 1];
+    const auto a_low = TexelPair(a), b_low = TexelPair(b);
+    const auto a_pair =
+        hn::Add(a_low, hn::Mul(hn::Sub(TexelPair(a + level.pitch), a_low), hn::Set(d8, wv[j])));
+    const auto b_pair =
+        hn::Add(b_low, hn::Mul(hn::Sub(TexelPair(b + level.pitch), b_low), hn::Set(d8, wv[j + 1])));
+    const auto left = hn::ConcatLowerLower(d8, b_pair, a_pair), right = hn::ConcatUpperUpper(d8, b_pair, a_pair);
+    const auto weight = hn::Combine(d8, hn::Set(d4, wu[j + 1]), hn::Set(d4, wu[j]));
+    hn::Store(hn::Add(left, hn::Mul(hn::Sub(right, left), weight)), d8, rgba + 4 * j);
+  }
+#else
+  for (int j = 0; j < kLanes; ++j) Bilinear(level.texels + offsets[j], level.pitch, wu[j], wv[j], rgba + 4 * j);
+#endif
+}
+
 struct SampleNearest {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = true;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
     const DF d;
     const DI di;
@@ -89,7 +117,8 @@ struct SampleNearest {
 
 template <bool kRepeat>
 struct SampleLinear {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = true;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
     const DF d;
     const DI di;
@@ -108,8 +137,7 @@ struct SampleLinear {
     hn::Store(hn::Sub(u, u0), d, wu);
     hn::Store(hn::Sub(t, t0), d, wv);
     if (hn::AllTrue(d, v.live)) {
-      for (int j = 0; j < kLanes; ++j)
-        Bilinear(level.texels + offsets[j], level.pitch, wu[j], wv[j], rgba + 4 * j);
+      BilinearGroup(level, offsets, wu, wv, rgba);
     } else {
       for (int j = 0; j < 4 * kLanes; j += kLanes) hn::Store(hn::Zero(d), d, rgba + j);
       for (unsigned todo = MaskBits(v.live); todo != 0; todo &= todo - 1) {
@@ -124,7 +152,8 @@ struct SampleLinear {
 // Draft: the filter llvmpipe has by default. Coordinates rounded to 1/256 texel, 8-bit weights, x before y, each
 // step rounded: a + ((f * (b - a) + 128) >> 8).
 struct SampleLinearDraft {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = true;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
     const DF d;
     const DI di;

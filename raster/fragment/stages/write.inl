@@ -2,22 +2,24 @@
 
 template <bool kMasked>
 struct WriteRgba8 {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = !kMasked;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
-    const DI d;
-    int32_t* memory = reinterpret_cast<int32_t*>(c.color) + i;
     VI packed = hn::Or(hn::Or(RoundToByte(v.slot[kR]), hn::ShiftLeft<8>(RoundToByte(v.slot[kG]))),
                        hn::Or(hn::ShiftLeft<16>(RoundToByte(v.slot[kB])), hn::ShiftLeft<24>(RoundToByte(v.slot[kA]))));
     if constexpr (kMasked) {
+      const DI d;
+      const VI old = hn::Load(d, reinterpret_cast<const int32_t*>(c.color) + i);
       const VI mask = hn::Set(d, static_cast<int32_t>(c.params->color_mask));
-      packed = hn::Or(hn::And(mask, packed), hn::AndNot(mask, hn::Load(d, memory)));
+      packed = hn::Or(hn::And(mask, packed), hn::AndNot(mask, old));
     }
-    hn::Store(hn::IfThenElse(hn::RebindMask(d, v.live), packed, hn::Load(d, memory)), d, memory);
+    L::StoreRgba8(c, i, packed, v.live);
   }
 };
 
 struct WriteRgba32f {
-  static constexpr bool kKills = false;
+  static constexpr bool kKills = false, kPacks = false;
+  template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
     const DF d;
     for (int k = 0; k < 4; ++k) {

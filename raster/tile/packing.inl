@@ -1,0 +1,153 @@
+// Small triangles: coverage in one 8x8 window, depth test at once and in order, then their fragments wait, packed,
+// until there are enough to shade together. A triangle of eight pixels so costs one group of lanes, not six rows that
+// are mostly dead.
+
+using DFq = hn::CappedTag<float, 8>;
+using DIq = hn::RebindToSigned<DFq>;
+inline constexpr int kQueueLanes = static_cast<int>(hn::MaxLanes(DFq()));
+inline constexpr int kQueueParts = kQueueLanes / kDoubleLanes;
+inline constexpr int kWindow = 8;  // pixels a side
+
+// Positions of the bits of a byte, packed into the low bytes.
+struct BitPositions {
+  uint64_t of[256];
+};
+constexpr BitPositions MakeBitPositions() {
+  BitPositions table{};
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    int n = 0;
+    for (unsigned bit = 0; bit < 8; ++bit)
+      if ((byte >> bit & 1) != 0) table.of[byte] |= uint64_t{bit} << (8 * n++);
+  }
+  return table;
+}
+inline constexpr BitPositions kBitPositions = MakeBitPositions();
+
+// Indices of the set bits, ascending; returns how many. `list` needs 8 bytes more than that, which repeat the last.
+HWY_INLINE int ListBits(uint64_t mask, uint8_t* list) {
+  int count = 0;
+  for (int row = 0; row < 8; ++row) {
+    const auto byte = static_cast<unsigned>(mask >> (8 * row) & 255u);
+    const uint64_t packed = kBitPositions.of[byte] + 0x0808080808080808u * static_cast<unsigned>(row);
+    __builtin_memcpy(list + count, &packed, 8);
+    count += __builtin_popcount(byte);
+  }
+  const uint64_t last = 0x0101010101010101u * list[count - 1];
+  __builtin_memcpy(list + count, &last, 8);
+  return count;
+}
+
+struct QueuedDoubles {
+  VD part[kQueueParts];
+};
+
+template <class To>
+HWY_INLINE hn::Vec<To> DemoteQueued(To d, const QueuedDoubles& v) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (kQueueParts == 2) {
+    const hn::Half<To> half;
+    return hn::Combine(d, hn::DemoteTo(half, v.part[1]), hn::DemoteTo(half, v.part[0]));
+  } else
+#endif
+  {
+    return hn::DemoteTo(d, v.part[0]);
+  }
+}
+
+template <class V>
+HWY_INLINE QueuedDoubles PromoteQueued(V v) {
+  const DD d;
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (kQueueParts == 2) {
+    const hn::Half<hn::DFromV<V>> half;
+    return {{hn::PromoteTo(d, hn::LowerHalf(half, v)), hn::PromoteTo(d, hn::UpperHalf(half, v))}};
+  } else
+#endif
+  {
+    return {{hn::PromoteTo(d, v)}};
+  }
+}
+
+HWY_INLINE hn::Mask<DIq> PassesDepth(CompareFunc func, hn::Vec<DIq> z, hn::Vec<DIq> old) {
+  switch (func) {
+    case CompareFunc::never: return hn::Ne(z, z);
+    case CompareFunc::less: return hn::Lt(z, old);
+    case CompareFunc::equal: return hn::Eq(z, old);
+    case CompareFunc::less_equal: return hn::Not(hn::Gt(z, old));
+    case CompareFunc::greater: return hn::Gt(z, old);
+    case CompareFunc::not_equal: return hn::Ne(z, old);
+    case CompareFunc::greater_equal: return hn::Not(hn::Lt(z, old));
+    case CompareFunc::always: break;
+  }
+  return hn::Eq(z, z);
+}
+
+struct Packer {
+  PixelQueue queue;
+  unsigned variant = 0;  // of all that waits
+
+  // Fragments of one primitive at the listed pixels of the window whose first pixel is (x, y) of the tile.
+  HWY_INLINE void Append(const SetupBatch& s, int lane, int x, int y, const uint8_t* list, int count,
+                         const PipelineProgram& program, int plane_count, uint32_t* depth) {
+    const DFq df;
+    const DIq di;
+    const hn::Rebind<uint8_t, DIq> bytes;
+    for (int first = 0; first < count; first += kQueueLanes) {
+      const auto index = hn::PromoteTo(di, hn::LoadU(bytes, list + first));
+      const auto px = hn::Add(hn::And(index, hn::Set(di, 7)), hn::Set(di, x));
+      const auto py = hn::Add(hn::ShiftRight<3>(index), hn::Set(di, y));
+      const auto offset = TileOffset(px, py);
+      auto live = hn::Lt(hn::Iota(di, first), hn::Set(di, count));
+      if (depth != nullptr) live = DepthTest(s, lane, px, py, offset, live, program.depth, depth);
+      const auto dx = hn::Add(hn::ConvertTo(df, px), hn::Set(df, static_cast<float>(s.anchor_x[lane])));
+      const auto dy = hn::Add(hn::ConvertTo(df, py), hn::Set(df, static_cast<float>(s.anchor_y[lane])));
+      const auto keep = hn::RebindMask(df, live);
+      for (int p = 1; p < plane_count; ++p) {
+        const auto row = hn::Add(hn::Set(df, s.f0_f[p][lane]), hn::Mul(hn::Set(df, s.dfdy_f[p][lane]), dy));
+        const auto value = hn::Add(row, hn::Mul(hn::Set(df, s.dfdx_f[p][lane]), dx));
+        hn::CompressStore(value, keep, df, queue.plane[p] + queue.count);
+      }
+      queue.count += static_cast<int>(hn::CompressStore(offset, live, di, queue.offset + queue.count));
+    }
+  }
+
+  // The last `count` fragments take the provoking vertex's colour instead of an interpolated one.
+  HWY_INLINE void SetFlatColor(const SetupBatch& s, int lane, int color_plane, int first) {
+    for (int k = 0; k < 4; ++k)
+      for (int i = first; i < queue.count; ++i) queue.plane[color_plane + k][i] = s.flat[k][lane];
+  }
+
+ private:
+  static HWY_INLINE hn::Vec<DIq> TileOffset(hn::Vec<DIq> x, hn::Vec<DIq> y) {
+    const DIq d;
+    const auto high = hn::Set(d, 56), low = hn::Set(d, 7);
+    const auto block = hn::Add(hn::ShiftLeft<6>(hn::And(y, high)), hn::ShiftLeft<3>(hn::And(x, high)));
+    return hn::Add(block, hn::Add(hn::ShiftLeft<3>(hn::And(y, low)), hn::And(x, low)));
+  }
+
+  // Tests and writes. Lanes that are not live repeat the last live one's pixel: memory is written from the last lane
+  // to the first, so the live one's value stays.
+  static HWY_INLINE hn::Mask<DIq> DepthTest(const SetupBatch& s, int lane, hn::Vec<DIq> px, hn::Vec<DIq> py,
+                                            hn::Vec<DIq> offset, hn::Mask<DIq> live, const DepthState& test,
+                                            uint32_t* depth) {
+    const DIq di;
+    const DD d;
+    const QueuedDoubles x = PromoteQueued(px), y = PromoteQueued(py);
+    QueuedDoubles z;
+    for (int p = 0; p < kQueueParts; ++p) {
+      const VD dx = hn::Add(x.part[p], hn::Set(d, s.anchor_x[lane])), dy = hn::Add(y.part[p], hn::Set(d, s.anchor_y[lane]));
+      const VD row = hn::Add(hn::Set(d, s.f0[0][lane]), hn::Mul(hn::Set(d, s.dfdy[0][lane]), dy));
+      z.part[p] = hn::Add(row, hn::Mul(hn::Set(d, s.dfdx[0][lane]), dx));
+    }
+    const auto value = hn::Min(hn::Max(DemoteQueued(di, z), hn::Zero(di)), hn::Set(di, static_cast<int32_t>(kDepthMax)));
+    const auto old = hn::GatherIndex(di, reinterpret_cast<const int32_t*>(depth), offset);
+    const auto pass = hn::And(live, PassesDepth(test.func, value, old));
+    if (test.write) {
+      alignas(64) int32_t values[8], at[8];
+      hn::Store(hn::IfThenElse(pass, value, old), di, values);
+      hn::Store(offset, di, at);
+      for (int j = kQueueLanes - 1; j >= 0; --j) depth[at[j]] = static_cast<uint32_t>(values[j]);
+    }
+    return pass;
+  }
+};
