@@ -234,10 +234,9 @@ HALFSPACE_EXPORT GLboolean OSMesaGetColorBuffer(OSMesaContext c, GLint* width, G
   return attached ? GL_TRUE : GL_FALSE;
 }
 
-HALFSPACE_EXPORT void OSMesaColorClamp(GLboolean enable) {
-  if (osmesa_context* const context = current_osmesa_context())
-    context->surface.set_color_clamp(enable != GL_FALSE);
-}
+// Colours are clamped to [0, 1] in any case: GL 1.x clamps clear colours and fragments (spec 3.10, 4.2.3) in
+// float buffers too, so both settings show the same picture.
+HALFSPACE_EXPORT void OSMesaColorClamp(GLboolean) {}
 
 // Gallium's filters on the finished picture (antialiasing, celshading): there are none here, and without the
 // program asking for one the picture is the same.

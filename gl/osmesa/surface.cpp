@@ -48,7 +48,6 @@ void Surface::finish(raster::Device& device, raster::Framebuffer&) {
   } else {
     const raster::LinearImage image = user_image();
     device.finish(&image);
-    if (color_clamp_ && user_.format.component == Component::float32) clamp_floats();
   }
   if (capture_enabled()) capture(device);
 }
@@ -67,15 +66,6 @@ void Surface::finish_into_shorts(raster::Device& device) {
     const float* from = values.data() + row_values * static_cast<size_t>(y);
     auto* to = reinterpret_cast<GLushort*>(static_cast<char*>(user_.data) + user_row_bytes * y);
     for (size_t i = 0; i < row_values; ++i) to[i] = static_cast<GLushort>(clamp01(from[i]) * 65535.0f + 0.5f);
-  }
-}
-
-void Surface::clamp_floats() const {
-  const raster::LinearImage image = user_image();
-  const int row_values = image.width * user_.format.components;
-  for (int y = 0; y < image.height; ++y) {
-    auto* row = reinterpret_cast<float*>(static_cast<char*>(image.data) + image.row_bytes * y);
-    for (int i = 0; i < row_values; ++i) row[i] = clamp01(row[i]);
   }
 }
 

@@ -39,8 +39,6 @@ class Surface final : public state::Drawable {
   int row_length() const { return row_length_; }
   void set_y_up(bool y_up) { y_up_ = y_up; }
   bool y_up() const { return y_up_; }
-  // Floating-point colours shown clamped to [0, 1] (OSMesaColorClamp).
-  void set_color_clamp(bool clamp) { color_clamp_ = clamp; }
 
   const state::VisualConfig& visual() const override { return visual_; }
   int width() const override { return user_.width; }
@@ -52,7 +50,6 @@ class Surface final : public state::Drawable {
  private:
   raster::LinearImage user_image() const;
   void finish_into_shorts(raster::Device& device);
-  void clamp_floats() const;
   void capture(raster::Device& device) const;
 
   int depth_bits_;
@@ -61,7 +58,6 @@ class Surface final : public state::Drawable {
   std::unique_ptr<raster::Framebuffer> framebuffer_;
   int row_length_ = 0;  // pixels; 0 is the width
   bool y_up_ = true;
-  bool color_clamp_ = false;
 };
 
 }  // namespace halfspace::gl

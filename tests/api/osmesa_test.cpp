@@ -328,14 +328,21 @@ TEST(OsmesaDepth, NoneWhenNoneWasAskedFor) {
   EXPECT_EQ(pixel, 0xFFFFFFFFu);
 }
 
-TEST(OsmesaColorClamp, ShowsFloatsClampedOnDemand) {
-  const Context context(OSMesaCreateContext(OSMESA_RGBA, nullptr));
-  std::vector<float> pixel(4);
-  ASSERT_TRUE(OSMesaMakeCurrent(context.handle, pixel.data(), GL_FLOAT, 1, 1));
-  OSMesaColorClamp(GL_TRUE);
-  clear_all(0.25f, 0.5f, 0.75f, 1.0f);
-  glFinish();
-  EXPECT_EQ(pixel, (std::vector<float>{0.25f, 0.5f, 0.75f, 1.0f}));
+// GL 1.x clamps whatever is stored, so that OSMesaColorClamp has nothing left to decide.
+TEST(OsmesaColorClamp, FloatBuffersHoldClampedColorsEitherWay) {
+  for (const GLboolean clamp : {GLboolean{GL_FALSE}, GLboolean{GL_TRUE}}) {
+    const Context context(OSMesaCreateContext(OSMESA_RGBA, nullptr));
+    std::vector<float> pixel(4);
+    ASSERT_TRUE(OSMesaMakeCurrent(context.handle, pixel.data(), GL_FLOAT, 1, 1));
+    OSMesaColorClamp(clamp);
+    clear_all(2, 0.25f, -1, 0.5f);
+    glFinish();
+    EXPECT_EQ(pixel, (std::vector<float>{1, 0.25f, 0, 0.5f}));
+    glColor4f(-2, 0.75f, 2.5f, 0.25f);
+    glRectf(-1, -1, 1, 1);
+    glFinish();
+    EXPECT_EQ(pixel, (std::vector<float>{0, 0.75f, 1, 0.25f}));
+  }
 }
 
 TEST_F(OsmesaTest, ProcAddressesAreThoseOfTheLibrary) {
