@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct Vertex {
   glm::vec2 tex_coord;
 };
 static_assert(sizeof(Vertex) == 40, "the client arrays walk over vertices without gaps");
+
+// A colour by its 8-bit levels: what a renderer stores for it is then no question of rounding.
+inline glm::vec3 levels(int red, int green, int blue) { return glm::vec3(red, green, blue) / 255.0F; }
 
 enum class Primitive : uint8_t { triangles, quads };
 

@@ -11,7 +11,7 @@ class TerrainScene final : public ItemScene {
  public:
   TerrainScene(Renderer& renderer, const Assets& assets) : ItemScene(renderer) {
     camera_ = {{0.0F, 8.0F, 11.0F}, {0, 0.0F, 1.2F}};
-    background_ = {0.62F, 0.74F, 0.86F, 1.0F};
+    background_ = {levels(158, 189, 219), 1.0F};
     const Image heights = assets.height_map();
     const ImageHandle dress = images_.add(assets.terrain_texture(heights));
     constexpr float kHalfSize = 8.0F;

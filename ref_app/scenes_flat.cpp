@@ -25,7 +25,7 @@ class WhiteShapesScene final : public ItemScene {
  public:
   explicit WhiteShapesScene(Renderer& renderer) : ItemScene(renderer) {
     perspective_ = false;
-    background_ = {0.10F, 0.12F, 0.16F, 1.0F};
+    background_ = {levels(26, 31, 41), 1.0F};
     // Two that share a corner, and one alone.
     auto triangles = std::make_shared<Geometry>();
     triangles->vertices = {white(-0.92F, 0.12F), white(-0.4F, 0.1F),  white(-0.75F, 0.9F),

@@ -23,15 +23,11 @@ class ColoredSolidsScene final : public ItemScene {
  public:
   explicit ColoredSolidsScene(Renderer& renderer) : ItemScene(renderer) {
     camera_ = {{0, 1.2F, 6.3F}, {0, 0.1F, 0}};
-    background_ = {0.08F, 0.09F, 0.12F, 1.0F};
-    const auto pyramid = share(
-        make_pyramid({{{1, 1, 1}, {1, 0.1F, 0.1F}, {0.1F, 0.9F, 0.2F}, {0.1F, 0.3F, 1}, {1, 0.85F, 0.1F}}}));
-    const auto cube = share(make_cube({{{0.90F, 0.25F, 0.20F},
-                                        {0.20F, 0.65F, 0.85F},
-                                        {0.95F, 0.80F, 0.25F},
-                                        {0.55F, 0.35F, 0.75F},
-                                        {0.25F, 0.70F, 0.35F},
-                                        {0.90F, 0.50F, 0.15F}}}));
+    background_ = {levels(20, 23, 31), 1.0F};
+    const auto pyramid = share(make_pyramid({{levels(255, 255, 255), levels(255, 26, 26), levels(26, 230, 51),
+                                              levels(26, 76, 255), levels(255, 217, 26)}}));
+    const auto cube = share(make_cube({{levels(230, 64, 51), levels(51, 166, 217), levels(242, 204, 64),
+                                        levels(140, 89, 191), levels(64, 178, 89), levels(230, 128, 38)}}));
     items_ = {{pyramid, placed({-1.3F, 0, 0}, 25, 1.0F), false, kImageNeverAdded, 0.9F},
               {cube, glm::rotate(placed({1.3F, -0.05F, 0}, 35, 0.75F), glm::radians(20.0F), kXAxis), false,
                kImageNeverAdded, -0.7F}};
@@ -42,7 +38,7 @@ class TexturedCubeScene final : public ItemScene {
  public:
   TexturedCubeScene(Renderer& renderer, const Assets& assets) : ItemScene(renderer) {
     camera_ = {{0, 2.0F, 4.5F}, {0, -0.05F, 0}};
-    background_ = {0.20F, 0.24F, 0.30F, 1.0F};
+    background_ = {levels(51, 61, 76), 1.0F};
     const ImageHandle brick = images_.add(assets.brick());
     items_ = {{share(make_cube(shaded_faces())), placed({0, 0, 0}, -32, 1), true, brick, 0.6F}};
   }
@@ -52,12 +48,12 @@ class SolidsOnPlaneScene final : public ItemScene {
  public:
   SolidsOnPlaneScene(Renderer& renderer, const Assets& assets) : ItemScene(renderer) {
     camera_ = {{0, 5.4F, 13.0F}, {0, 0.6F, 0}};
-    background_ = {0.55F, 0.68F, 0.82F, 1.0F};
+    background_ = {levels(140, 173, 209), 1.0F};
     const ImageHandle brick = images_.add(assets.brick());
     const ImageHandle wood = images_.add(assets.wood());
     const ImageHandle marble = images_.add(assets.marble());
     const ImageHandle checker = images_.add(assets.checker());
-    items_.push_back({share(make_plane({17, 5, 1})), glm::mat4(1.0F), true, checker});
+    items_.push_back({share(make_plane({17, 8, 1})), glm::mat4(1.0F), true, checker});
 
     const auto cube = share(make_cube(shaded_faces()));
     const auto add_cube = [&](float x, float z, float degrees, float scale, ImageHandle image) {
@@ -71,11 +67,9 @@ class SolidsOnPlaneScene final : public ItemScene {
     add_cube(4.7F, -3.0F, 33, 1.1F, wood);
 
     // Texturing is on and the name has no image, so the pyramids show their colours.
-    const auto pyramid = share(make_pyramid({{{1.0F, 0.96F, 0.85F},
-                                              {0.95F, 0.55F, 0.25F},
-                                              {0.85F, 0.25F, 0.30F},
-                                              {0.35F, 0.25F, 0.60F},
-                                              {0.25F, 0.55F, 0.75F}}}));
+    const auto pyramid =
+        share(make_pyramid({{levels(255, 245, 217), levels(242, 140, 64), levels(217, 64, 76),
+                             levels(89, 64, 153), levels(64, 140, 191)}}));
     const auto add_pyramid = [&](float x, float z, float degrees, float scale) {
       items_.push_back({pyramid, placed({x, scale, z}, degrees, scale), true, kImageNeverAdded, -0.5F});
     };

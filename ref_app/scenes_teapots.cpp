@@ -40,11 +40,11 @@ class TeapotScene final : public TeapotSceneBase {
  public:
   TeapotScene(Renderer& renderer, const Assets& assets) : TeapotSceneBase(renderer) {
     camera_ = {{0, 4.4F, 8.6F}, {0, 1.1F, 0}};
-    background_ = {0.34F, 0.40F, 0.48F, 1.0F};
-    Geometry plane = make_plane({9, 2, 32});
+    background_ = {levels(87, 102, 122), 1.0F};
+    Geometry plane = make_plane({9, 3, 14});
     darken(plane, -0.4F, -0.4F, 4.4F, 0.1F);
     add_plane(std::move(plane), images_.add(assets.wood()));
-    add_teapot(assets, {-0.15F, 0, 0}, 28, 1.0F, {0.93F, 0.90F, 0.86F});
+    add_teapot(assets, {-0.15F, 0, 0}, 28, 1.0F, levels(237, 230, 219));
   }
 };
 
@@ -52,20 +52,20 @@ class NineTeapotsScene final : public TeapotSceneBase {
  public:
   NineTeapotsScene(Renderer& renderer, const Assets& assets) : TeapotSceneBase(renderer) {
     camera_ = {{0, 13.6F, 18.8F}, {0, -0.4F, 1.0F}};
-    background_ = {0.20F, 0.24F, 0.30F, 1.0F};
+    background_ = {levels(51, 61, 76), 1.0F};
     const ImageHandle checker = images_.add(assets.checker());
     const ImageHandle marble = images_.add(assets.marble());
     constexpr float kSpacing = 5.0F;  // between the teapots' axes
-    static const glm::vec3 kColors[9] = {{0.85F, 0.33F, 0.28F}, {0.96F, 0.96F, 0.96F}, {0.30F, 0.55F, 0.80F},
-                                         {0.93F, 0.76F, 0.30F}, {0.92F, 0.90F, 0.86F}, {0.42F, 0.68F, 0.44F},
-                                         {0.62F, 0.44F, 0.72F}, {1.00F, 0.98F, 0.94F}, {0.90F, 0.52F, 0.24F}};
-    Geometry plane = make_plane({14, 4, 48});
+    static const glm::vec3 kColors[9] = {levels(217, 84, 71),   levels(245, 245, 245), levels(76, 140, 204),
+                                         levels(237, 194, 76),  levels(235, 230, 219), levels(107, 173, 112),
+                                         levels(158, 112, 184), levels(255, 250, 240), levels(230, 133, 61)};
+    Geometry plane = make_plane({14, 4, 20});
     for (int i = 0; i < 9; ++i)
       darken(plane, place(i, kSpacing).x - 0.3F, place(i, kSpacing).z - 0.35F, 3.0F, 0.1F);
     add_plane(std::move(plane), checker);
     for (int i = 0; i < 9; ++i) {
-      const bool textured = i % 3 == 1;
-      add_teapot(assets, place(i, kSpacing), static_cast<float>(24 + 40 * i), 0.78F, kColors[i],
+      const bool textured = i == 4;
+      add_teapot(assets, place(i, kSpacing), static_cast<float>(30 + 41 * i), 0.78F, kColors[i],
                  textured ? marble : kImageNeverAdded);
     }
   }

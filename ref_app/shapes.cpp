@@ -58,7 +58,8 @@ std::array<glm::vec3, 6> shaded_faces() {
   for (size_t i = 0; i < shades.size(); ++i) {
     const float toward_light = glm::dot(kCubeFaces[i].normal, light_direction());
     shades[i] = glm::vec3(0.62F + (toward_light > 0 ? 0.45F : 0.30F) * toward_light);
-    shades[i] = glm::vec3(clamp_unit(shades[i].r));
+    const auto level = static_cast<int>(clamp_unit(shades[i].r) * 255.0F + 0.5F);
+    shades[i] = levels(level, level, level);
   }
   return shades;
 }

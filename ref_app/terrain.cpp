@@ -13,7 +13,7 @@ namespace ref_app {
 namespace {
 
 constexpr int kQuads = 256;           // along a side of the mesh
-constexpr float kTextureRelief = 48;  // height of the whole range in map pixels, for the light on the texture
+constexpr float kTextureRelief = 34;  // height of the whole range in map pixels, for the light on the texture
 
 // Heights in [0, 1], smoothed: a map of 8 bits has steps that light would show.
 struct HeightField {
@@ -111,9 +111,9 @@ glm::vec3 ground_color(float height, float steepness, float patch) {
   const glm::vec3 meadow = glm::mix(glm::vec3(0.24F, 0.42F, 0.14F), glm::vec3(0.46F, 0.52F, 0.20F), patch);
   const glm::vec3 rock = glm::mix(glm::vec3(0.40F, 0.36F, 0.32F), glm::vec3(0.56F, 0.50F, 0.44F), patch);
   const glm::vec3 snow(0.95F, 0.97F, 1.0F);
-  const float rocky = smooth_step(0.55F, 1.05F, steepness + 0.5F * height + 0.3F * (patch - 0.5F));
+  const float rocky = smooth_step(0.25F, 1.0F, steepness + 0.5F * height + 0.3F * (patch - 0.5F));
   const float snowy =
-      smooth_step(0.42F, 0.60F, height + 0.12F * (patch - 0.5F)) * (1 - smooth_step(1.0F, 1.7F, steepness));
+      smooth_step(0.36F, 0.62F, height + 0.12F * (patch - 0.5F)) * (1 - smooth_step(0.7F, 1.6F, steepness));
   return glm::mix(glm::mix(meadow, rock, rocky), snow, snowy);
 }
 
@@ -156,7 +156,7 @@ Image make_terrain_texture(const Image& heights) {
       const glm::vec3 slope(-h.slope_x * kTextureRelief, 1.0F, h.slope_y * kTextureRelief);
       const float lit = glm::dot(glm::normalize(slope), light);
       const float steepness = glm::length(glm::vec2(slope.x, slope.z));
-      const float patch = fractal_noise(static_cast<float>(x) / 64, static_cast<float>(y) / 64, 16, 4, 77);
+      const float patch = fractal_noise(static_cast<float>(x) / 64, static_cast<float>(y) / 64, 16, 3, 77);
       const glm::vec3 color =
           ground_color(h.height, steepness, patch) * (0.28F + 0.85F * (lit < 0 ? 0.0F : lit));
       image.rgba.insert(image.rgba.end(), {to_byte(color.r), to_byte(color.g), to_byte(color.b), 255});
