@@ -10,7 +10,8 @@
 namespace halfspace::state {
 namespace {
 
-constexpr uint32_t kFirstBatchVertices = 1020;  // a multiple of 12, as kMaxBatchVertices is
+constexpr uint32_t kFirstBatchVertices = 1020;
+static_assert(kFirstBatchVertices % 12 == 0 && kMaxBatchVertices % 12 == 0);
 
 // Points the cursor behind `count` vertices at the start of the buffer.
 void set_cursor(ImmediateState& im, uint32_t count) {
@@ -35,35 +36,27 @@ void draw_gathered(Context& context, GLenum mode, uint32_t count) {
   submit(context, packet);
 }
 
-// Where a batch of `count` vertices may be cut so that the drawing goes on as if it had not been: how many to
-// draw, and the vertices that the rest begins with.
-struct Cut {
-  uint32_t draw;
-  bool keep_first;  // the centre of a fan
-  uint32_t keep_from;
+// What of a full batch the next one begins with, so that the drawing goes on as if it had not been parted:
+// the centre of a fan, and the last vertices. A full batch is whole points, lines, triangles, quads, and
+// pairs of a strip (its next triangle faces as the first one did), for its length is a multiple of 12.
+struct Kept {
+  bool first;
+  uint32_t last;
 };
 
-Cut find_cut(GLenum mode, uint32_t count) {
-  const auto whole = [count](uint32_t n) { return Cut{count - count % n, false, count - count % n}; };
+Kept kept_vertices(GLenum mode) {
   switch (mode) {
-    case GL_LINES:
-      return whole(2);
-    case GL_TRIANGLES:
-      return whole(3);
-    case GL_QUADS:
-      return whole(4);
     case GL_LINE_STRIP:
     case GL_LINE_LOOP:
-      return {count, false, count - 1};
-    // An even number of triangles, for the next one's orientation.
+      return {false, 1};
     case GL_TRIANGLE_STRIP:
     case GL_QUAD_STRIP:
-      return {count - count % 2, false, count - count % 2 - 2};
+      return {false, 2};
     case GL_TRIANGLE_FAN:
     case GL_POLYGON:
-      return {count, true, count - 1};
+      return {true, 1};
     default:
-      return whole(1);
+      return {false, 0};
   }
 }
 
@@ -76,18 +69,17 @@ void remember_loop_start(ImmediateState& im) {
 // The mode the gathered vertices are drawn with: of a parted loop, a strip.
 GLenum batch_mode(const ImmediateState& im) { return im.loop_parted ? GL_LINE_STRIP : im.mode; }
 
-// Draws what is gathered, and moves what the rest needs to the buffer's start.
+// Draws a full batch, and moves what the next one needs to the buffer's start.
 void part_batch(Context& context) {
   ImmediateState& im = context.immediate;
   const uint32_t count = im.vertex_count();
-  const Cut cut = find_cut(im.mode, count);
+  const Kept kept = kept_vertices(im.mode);
   remember_loop_start(im);
-  draw_gathered(context, batch_mode(im), cut.draw);
-  const uint32_t kept_first = cut.keep_first ? 1 : 0;
-  const uint32_t kept = count - cut.keep_from;
-  std::memmove(vertex_at(im, kept_first), vertex_at(im, cut.keep_from),
-               kept * im.vertex_floats() * sizeof(float));
-  set_cursor(im, kept_first + kept);
+  draw_gathered(context, batch_mode(im), count);
+  const uint32_t start = kept.first ? 1 : 0;
+  std::memmove(vertex_at(im, start), vertex_at(im, count - kept.last),
+               kept.last * im.vertex_floats() * sizeof(float));
+  set_cursor(im, start + kept.last);
 }
 
 bool grow(ImmediateState& im) try {

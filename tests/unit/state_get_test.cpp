@@ -144,7 +144,12 @@ TEST_F(GetTest, SettersAreReadBack) {
   EXPECT_EQ(integers<4>(GL_VIEWPORT), (std::array<GLint, 4>{-3, 4, integers<2>(GL_MAX_VIEWPORT_DIMS)[0], 6}));
   op::scissor(*context, 1, 2, 3, 4);
   EXPECT_EQ(integers<4>(GL_SCISSOR_BOX), (std::array<GLint, 4>{1, 2, 3, 4}));
-  op::polygon_mode(*context, GL_BACK, GL_FILL);
+  op::polygon_mode(*context, GL_BACK, GL_LINE);
+  EXPECT_EQ(integers<2>(GL_POLYGON_MODE), (std::array<GLint, 2>{GL_FILL, GL_LINE}));
+  op::polygon_mode(*context, GL_FRONT, GL_POINT);
+  EXPECT_EQ(integers<2>(GL_POLYGON_MODE), (std::array<GLint, 2>{GL_POINT, GL_LINE}));
+  op::polygon_mode(*context, GL_FRONT_AND_BACK, GL_FILL);
+  EXPECT_EQ(integers<2>(GL_POLYGON_MODE), (std::array<GLint, 2>{GL_FILL, GL_FILL}));
   op::cull_face(*context, GL_FRONT_AND_BACK);
   EXPECT_EQ(integer(GL_CULL_FACE_MODE), GL_FRONT_AND_BACK);
   op::front_face(*context, GL_CW);
@@ -168,6 +173,18 @@ TEST_F(GetTest, SettersAreReadBack) {
   op::depth_mask(*context, GL_FALSE);
   EXPECT_EQ(integer(GL_DEPTH_WRITEMASK), 0);
   EXPECT_EQ(op::get_error(*context), GLenum(GL_NO_ERROR));
+}
+
+TEST_F(GetTest, MaterialsKeepTheirFaces) {
+  const float red[] = {1, 0, 0, 1}, shiny[] = {128};
+  op::material(*context, GL_BACK, GL_AMBIENT_AND_DIFFUSE, red);
+  op::material(*context, GL_FRONT, GL_SHININESS, shiny);
+  const MaterialState *front = &context->lighting.material[0], *back = &context->lighting.material[1];
+  EXPECT_EQ(back->ambient[0], 1);
+  EXPECT_EQ(back->diffuse[1], 0);
+  EXPECT_EQ(back->shininess, 0);
+  EXPECT_EQ(front->diffuse[0], 0.8f);
+  EXPECT_EQ(front->shininess, 128);
 }
 
 TEST_F(GetTest, Strings) {

@@ -148,6 +148,10 @@ TEST_F(ImmediateTest, AColourThatNeverChangesIsConstant) {
   EXPECT_FALSE(recorded_draws[1].constant_color);
   EXPECT_EQ(recorded_draws[1].vertices[0].color, (std::array<float, 4>{1, 0.5f, 0, 1}));
   EXPECT_EQ(recorded_draws[1].vertices[1].color, (std::array<float, 4>{0, 0, 0, 1}));
+  op::begin(*context, GL_POINTS);  // what the last batch did is forgotten
+  op::vertex(*context, 0, 0, 0, 1);
+  op::end(*context);
+  EXPECT_TRUE(recorded_draws[2].constant_color);
   // The current colour outlives End.
   EXPECT_EQ(context->current.color[0], 0);
 }

@@ -1,5 +1,6 @@
 // A refused call records the spec's error and changes nothing; between Begin and End everything but vertex
 // data is refused.
+#include <array>
 #include <functional>
 #include <limits>
 
@@ -82,6 +83,10 @@ const std::vector<Refusal> kRefusals = {
     {"blend_func source", GL_INVALID_ENUM, [](Context& c) { op::blend_func(c, GL_BLEND, GL_ZERO); }},
     {"blend_func destination", GL_INVALID_ENUM,
      [](Context& c) { op::blend_func(c, GL_ZERO, GL_SRC_ALPHA_SATURATE); }},
+    {"depth_func above", GL_INVALID_ENUM, [](Context& c) { op::depth_func(c, GL_ALWAYS + 1); }},
+    {"alpha_func below", GL_INVALID_ENUM, [](Context& c) { op::alpha_func(c, GL_NEVER - 1, 0.5f); }},
+    {"material too shiny", GL_INVALID_VALUE,
+     [](Context& c) { op::material(c, GL_BACK, GL_SHININESS, std::array{128.5f}.data()); }},
     {"depth_func", GL_INVALID_ENUM, [](Context& c) { op::depth_func(c, GL_NEVER - 1); }},
     {"scissor width", GL_INVALID_VALUE, [](Context& c) { op::scissor(c, 1, 2, -3, 4); }},
     {"scissor height", GL_INVALID_VALUE, [](Context& c) { op::scissor(c, 1, 2, 3, -4); }},
