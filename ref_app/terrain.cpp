@@ -61,6 +61,18 @@ SplineWeights spline_weights(float t) {
           {-0.5F * s * s, 1.5F * t * t - 2 * t, -1.5F * s * s + 2 * s, 0.5F * t * t}};
 }
 
+// Slow variation of the ground's colour, in [0, 1].
+HeightField ground_patches() {
+  HeightField field{kHeightMapSize, kHeightMapSize, {}};
+  for (int y = 0; y < kHeightMapSize; ++y) {
+    for (int x = 0; x < kHeightMapSize; ++x) {
+      field.values.push_back(
+          fractal_noise(static_cast<float>(x) / 16, static_cast<float>(y) / 16, 16, 3, 77));
+    }
+  }
+  return field;
+}
+
 // One row across a height map, y fixed: heights and their slope along y at every map column.
 class SplineRow {
  public:
@@ -142,24 +154,26 @@ Image make_height_map() {
 
 Image make_terrain_texture(const Image& heights) {
   constexpr int kSize = kTerrainTextureSize;
-  Image image{kSize, kSize, {}};
-  image.rgba.reserve(size_t{kSize} * kSize * 4);
-  const HeightField field = height_field(heights);
+  Image image{kSize, kSize, std::vector<uint8_t>(size_t{kSize} * kSize * 4)};
+  uint8_t* texel = image.rgba.data();
+  const HeightField field = height_field(heights), patches = ground_patches();
+  constexpr float kPatch = static_cast<float>(kHeightMapSize) / kSize;
   const glm::vec3 light = light_direction();
   const float map_x = static_cast<float>(heights.width) / kSize,
               map_y = static_cast<float>(heights.height) / kSize;
   for (int y = 0; y < kSize; ++y) {
     const SplineRow row(field, (static_cast<float>(y) + 0.5F) * map_y - 0.5F);
-    for (int x = 0; x < kSize; ++x) {
+    const SplineRow patch_row(patches, (static_cast<float>(y) + 0.5F) * kPatch - 0.5F);
+    for (int x = 0; x < kSize; ++x, texel += 4) {
       const SplineRow::Sample h = row.at((static_cast<float>(x) + 0.5F) * map_x - 0.5F);
       // t grows towards -z, so the slope along the map's y counts the other way in z.
       const glm::vec3 slope(-h.slope_x * kTextureRelief, 1.0F, h.slope_y * kTextureRelief);
       const float lit = glm::dot(glm::normalize(slope), light);
       const float steepness = glm::length(glm::vec2(slope.x, slope.z));
-      const float patch = fractal_noise(static_cast<float>(x) / 64, static_cast<float>(y) / 64, 16, 3, 77);
+      const float patch = patch_row.at((static_cast<float>(x) + 0.5F) * kPatch - 0.5F).height;
       const glm::vec3 color =
           ground_color(h.height, steepness, patch) * (0.28F + 0.85F * (lit < 0 ? 0.0F : lit));
-      image.rgba.insert(image.rgba.end(), {to_byte(color.r), to_byte(color.g), to_byte(color.b), 255});
+      texel[0] = to_byte(color.r), texel[1] = to_byte(color.g), texel[2] = to_byte(color.b), texel[3] = 255;
     }
   }
   return image;
