@@ -81,7 +81,7 @@ void expect_exact(const std::vector<SnappedTriangle>& triangles) {
 
 void expect_exact_for(uint64_t seed, const std::function<SnappedTriangle(Random&)>& make) {
   Random random(seed);
-  const int batches = long_tests() ? 200 : 2;
+  const int batches = long_tests() ? 40 : 2;
   for (int b = 0; b < batches && !testing::Test::HasFatalFailure(); ++b) {
     std::vector<SnappedTriangle> triangles;
     for (int i = 0; i < 100; ++i) triangles.push_back(make(random));

@@ -267,6 +267,27 @@ TEST(TextureLinear, HorizonStaysWithinHalfALevel) {
   }
 }
 
+// The double path is taken where it is called for, and nowhere else.
+TEST(TextureLinear, DoubleIsPaidForOnlyWhereFloatWouldNotDo) {
+  Random random(7);
+  TestTexture texture;
+  texture.add_noise(random, 64, 64);
+  const DrawState state = replace_state(kSize, texture.view(sampler_of(Filter::linear, Wrap::repeat)));
+  std::vector<Vertex> triangle{snapped_vertex(0, 0, kSize), snapped_vertex(16000, 0, kSize),
+                               snapped_vertex(0, 16000, kSize)};
+  triangle[1].s = triangle[2].t = 1;
+  Canvas canvas(kSize, kSize);
+  canvas.draw(state, Primitive::triangles, triangle);
+  canvas.device().finish();
+  EXPECT_GT(canvas.device().statistics().fragments, 1900u);
+  EXPECT_EQ(canvas.device().statistics().double_fragments, 0u);
+  triangle[2].x *= 1e6f, triangle[2].y *= 1e6f, triangle[2].w = 1e6f;
+  triangle[2].t = 1e6f;
+  canvas.draw(state, Primitive::triangles, triangle);
+  canvas.device().finish();
+  EXPECT_GT(canvas.device().statistics().double_fragments, 1900u);
+}
+
 // Whole repeats added to s and t change nothing, flat or in perspective, whole or cut by the near plane.
 TEST(TextureRepeat, WholeRepeatsChangeNothing) {
   Random random(6);

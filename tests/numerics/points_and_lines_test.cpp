@@ -1,0 +1,131 @@
+// Points and lines through the whole pipeline (the shapes themselves are tested in lines_test.cpp).
+#include <gtest/gtest.h>
+
+#include "tests/support/canvas.h"
+#include "tests/support/random.h"
+
+namespace halfspace::test {
+namespace {
+
+using namespace raster;
+
+constexpr int kSize = 32;
+
+DrawState counting_state() {
+  DrawState state = plain_state(kSize, kSize);
+  state.blend = {true, BlendFactor::one, BlendFactor::one};
+  return state;
+}
+
+// Spec 3.3: the fragment whose square holds the point; at 16 x 16 sub-pixel phases, edges of pixels included.
+TEST(Points, ThePixelThatHoldsIt) {
+  for (int64_t phase_x = 0; phase_x < 256; phase_x += 16) {
+    for (int64_t phase_y = 0; phase_y < 256; phase_y += 16) {
+      Canvas canvas(kSize, kSize);
+      const int64_t px = 3 + phase_x / 16, py = 9 + phase_y / 32;
+      const std::vector<Vertex> v{
+          snapped_vertex(256 * px + phase_x, 256 * py + phase_y, kSize, 0.5f, {0.2f, 0.4f, 0.6f, 0.8f})};
+      DrawState state = plain_state(kSize, kSize);
+      state.depth.test = true;
+      canvas.draw(state, Primitive::points, v);
+      const Picture picture = canvas.read();
+      for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+          const bool hit = x == px && y == py;
+          const uint8_t* p = picture.pixel(x, y);
+          ASSERT_EQ(int(p[0]), hit ? 51 : 0) << phase_x << ", " << phase_y << ": pixel " << x << ", " << y;
+          if (!hit) continue;
+          ASSERT_EQ(int(p[1]), 102);
+          ASSERT_EQ(int(p[2]), 153);
+          ASSERT_EQ(int(p[3]), 204);
+          // 0.75 (2^24 - 1) = 12582911.25
+          ASSERT_EQ(picture.depth_at(x, y), 12582911u);
+        }
+      }
+    }
+  }
+}
+
+// Spec 2.11: a point outside the view volume is discarded, one on its boundary is not.
+TEST(Points, OutsideTheVolumeAreDiscarded) {
+  Canvas canvas(kSize, kSize);
+  for (float beyond : {-1.01f, 1.01f}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<Vertex> v(1);
+      (&v[0].x)[axis] = beyond;
+      canvas.draw(plain_state(16, 16, 8, 8), Primitive::points, v);
+    }
+  }
+  for (uint8_t byte : canvas.read().rgba) ASSERT_EQ(int(byte), 0);
+}
+
+// Spec 3.4.1: segments of a strip or a loop share their joints, and half-open segments draw a joint inside a
+// diamond once.
+TEST(Lines, LoopsDrawEachJointOnce) {
+  Random random(1);
+  for (int round = 0; round < 100; ++round) {
+    // A triangle with long sides; its corners anywhere inside the diamonds of three pixels.
+    constexpr int kJoints[3][2] = {{2, 3}, {28, 6}, {12, 29}};
+    std::vector<Vertex> v;
+    for (const auto& joint : kJoints) {
+      const int64_t dx = random.integer(-127, 127),
+                    dy = random.integer(std::abs(dx) - 127, 127 - std::abs(dx));
+      v.push_back(snapped_vertex(256 * joint[0] + 128 + dx, 256 * joint[1] + 128 + dy, kSize));
+    }
+    const auto count = [](Primitive primitive, const std::vector<Vertex>& vertices) {
+      Canvas canvas(kSize, kSize);
+      canvas.draw_plain(counting_state(), primitive, vertices, {1.0f / 255, 0, 0, 0});
+      return canvas.read();
+    };
+    const Picture loop = count(Primitive::line_loop, v);
+    const std::vector<Vertex> closed{v[0], v[1], v[2], v[0]};
+    const std::vector<Vertex> pairs{v[0], v[1], v[1], v[2], v[2], v[0]};
+    EXPECT_EQ(first_difference(loop, count(Primitive::line_strip, closed)), "");
+    EXPECT_EQ(first_difference(loop, count(Primitive::lines, pairs)), "");
+    for (const auto& joint : kJoints) {
+      ASSERT_EQ(int(loop.pixel(joint[0], joint[1])[0]), 1) << "round " << round << ", joint " << joint[0];
+    }
+    // Next to a joint both sides may rightly pass through one diamond; elsewhere they are apart.
+    int drawn = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const int hits = loop.pixel(x, y)[0];
+        bool near_joint = false;
+        for (const auto& joint : kJoints) {
+          near_joint = near_joint || (std::abs(x - joint[0]) <= 2 && std::abs(y - joint[1]) <= 2);
+        }
+        if (!near_joint) {
+          ASSERT_LE(hits, 1) << "round " << round << ", pixel " << x << ", " << y;
+        }
+        drawn += hits > 0;
+      }
+    }
+    EXPECT_GT(drawn, 60);
+  }
+}
+
+// Spec 3.4.1, equation 3.4: along an x-major line through pixel centres, the value at the centre's share of
+// the way.
+TEST(Lines, InterpolateAlongTheSegment) {
+  for (bool perspective : {false, true}) {
+    Canvas canvas(kSize, kSize);
+    std::vector<Vertex> v{snapped_vertex(128, 20 * 256 + 128, kSize, -1, {0, 1, 0, 1}),
+                          snapped_vertex(30 * 256 + 128, 20 * 256 + 128, kSize, 1, {1, 0, 0, 1})};
+    const float w = perspective ? 4 : 1;
+    v[1].x *= w, v[1].y *= w, v[1].z *= w, v[1].w = w;
+    DrawState state = plain_state(kSize, kSize);
+    state.depth.test = true;
+    canvas.draw(state, Primitive::lines, v);
+    const Picture picture = canvas.read();
+    for (int x = 0; x < 30; ++x) {
+      const double t = x / 30.0, share = (t / double(w)) / (1 - t + t / double(w));
+      ASSERT_NEAR(picture.pixel(x, 20)[0], 255 * share, 0.51) << "pixel " << x << ", w " << w;
+      ASSERT_NEAR(picture.pixel(x, 20)[1], 255 * (1 - share), 0.51) << "pixel " << x << ", w " << w;
+      ASSERT_NEAR(picture.depth_at(x, 20), 16777215 * t, 0.51) << "pixel " << x << ", w " << w;
+    }
+    EXPECT_EQ(int(picture.pixel(30, 20)[3]), 0) << "half-open: the last end's pixel is not drawn";
+  }
+}
+
+}  // namespace
+}  // namespace halfspace::test
