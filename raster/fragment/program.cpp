@@ -101,10 +101,10 @@ uint32_t byte_mask(const ColorMask& mask) {
 }
 
 void scale_color(const Color& color, float* out) {
-  out[0] = color.r * 255.0f;
-  out[1] = color.g * 255.0f;
-  out[2] = color.b * 255.0f;
-  out[3] = color.a * 255.0f;
+  out[0] = color_level(color.r);
+  out[1] = color_level(color.g);
+  out[2] = color_level(color.b);
+  out[3] = color_level(color.a);
 }
 
 void set_texture_params(const DrawState& state, FragmentParams& params) {

@@ -14,7 +14,7 @@ int tiles_for(int pixels) { return (pixels + kTileSize - 1) / kTileSize; }
 uint32_t pack_rgba8(const Color& c) {
   auto byte = [](float v) {
     const float clamped = v > 0 ? std::min(v, 1.0f) : 0.0f;
-    return static_cast<uint32_t>(clamped * 255.0f + 0.5f);
+    return static_cast<uint32_t>(static_cast<double>(clamped) * 255.0 + 0.5);
   };
   return byte(c.r) | byte(c.g) << 8 | byte(c.b) << 16 | byte(c.a) << 24;
 }

@@ -110,6 +110,7 @@ void FlushPacked(TileContext& t) {
   c.live = ~uint64_t{0};
   t.program->packed[t.packer.variant].run(c);
   queue.count = 0;
+  t.packer.blocks = 0;
 }
 
 // Blocks the pixels from (x0, y0) to (x1, y1) lie in; they span at most two each way.
@@ -125,19 +126,18 @@ HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
     for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) t.state->depth_max[__builtin_ctzll(todo)] = kDepthMax;
 }
 
-void PackTriangle(TileContext& t, int lane) {
+// Fragments at the pixels of `mask`, in the window whose first pixel is (x, y), join those that wait. `blocks`: the
+// blocks these pixels lie in.
+void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint64_t blocks) {
   const SetupBatch& s = t.setup;
-  const int x = s.min_x[lane], y = s.min_y[lane];
-  const TriangleWalk walk(s, lane);
-  const uint64_t mask = walk.Window(x, y, s.max_x[lane] - x + 1, s.max_y[lane] - y + 1);
-  if (mask == 0) return;
   Packer& packer = t.packer;
   const int count = __builtin_popcountll(mask);
   if (packer.variant != s.variant[lane] || packer.queue.count + count > PixelQueue::kCapacity) {
     FlushPacked(t);
     packer.variant = s.variant[lane];
   }
-  PrepareWindow(t, WindowBlocks(x, y, s.max_x[lane], s.max_y[lane]));
+  PrepareWindow(t, blocks);
+  packer.blocks |= blocks;
   t.statistics->fragments += static_cast<uint64_t>(count);
   uint8_t list[kWindow * kWindow + 8];
   ListBits(mask, list);
@@ -147,14 +147,34 @@ void PackTriangle(TileContext& t, int lane) {
   if (t.flat_color) packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
 }
 
-void WalkTriangle(TileContext& t, int lane) {
+void PackTriangle(TileContext& t, int lane) {
+  const SetupBatch& s = t.setup;
+  const int x = s.min_x[lane], y = s.min_y[lane];
+  const TriangleWalk walk(s, lane);
+  const uint64_t mask = walk.Window(x, y, s.max_x[lane] - x + 1, s.max_y[lane] - y + 1);
+  if (mask != 0) PackWindow(t, lane, x, y, mask, WindowBlocks(x, y, s.max_x[lane], s.max_y[lane]));
+}
+
+// A block of a larger triangle: packed if only a part of it is covered, else row by row. What waits for the block's
+// pixels was drawn before and is stored before.
+void WalkBlock(TileContext& t, int lane, int block, uint64_t mask, bool packs) {
+  const uint64_t bit = uint64_t{1} << block;
+  if (packs && __builtin_popcountll(mask) <= kPackAtMost) {
+    PackWindow(t, lane, block % 8 * kBlockSize, block / 8 * kBlockSize, mask, bit);
+    return;
+  }
+  if ((t.packer.blocks & bit) != 0) FlushPacked(t);
+  RunBlock(t, lane, block, mask);
+}
+
+void WalkTriangle(TileContext& t, int lane, bool packs) {
   const SetupBatch& s = t.setup;
   const TriangleWalk walk(s, lane);
   for (int by = s.min_y[lane] / kBlockSize; by <= s.max_y[lane] / kBlockSize; ++by) {
     for (int bx = s.min_x[lane] / kBlockSize; bx <= s.max_x[lane] / kBlockSize; ++bx) {
       uint64_t mask = walk.Coverage(bx * kBlockSize, by * kBlockSize, s.min_y[lane], s.max_y[lane]);
       if (!t.limit_is_tile && mask != 0) mask &= LimitMask(t.limit, by * 8 + bx);
-      if (mask != 0) RunBlock(t, lane, by * 8 + bx, mask);
+      if (mask != 0) WalkBlock(t, lane, by * 8 + bx, mask, packs);
     }
   }
 }
@@ -163,12 +183,9 @@ void RunTriangle(TileContext& t, int lane) {
   const SetupBatch& s = t.setup;
   const int width = s.max_x[lane] - s.min_x[lane] + 1, height = s.max_y[lane] - s.min_y[lane] + 1;
   if (width <= 0 || height <= 0) return;
-  if (t.program->packs && width <= kWindow && height <= kWindow && (s.variant[lane] & kDouble) == 0) {
-    PackTriangle(t, lane);
-  } else {
-    FlushPacked(t);
-    WalkTriangle(t, lane);
-  }
+  const bool packs = t.program->packs && (s.variant[lane] & kDouble) == 0;
+  if (packs && width <= kWindow && height <= kWindow) PackTriangle(t, lane);
+  else WalkTriangle(t, lane, packs);
 }
 
 void RunLineOrPoint(TileContext& t, const PrimitiveRef& ref, const Segment& segment, const DrawRecord& draw,
