@@ -69,6 +69,7 @@ int existing_buffers(const VisualConfig& visual) {
 }  // namespace
 
 raster::Framebuffer* read_framebuffer(Context& context) {
+  flush_vertices(context);
   Drawable* drawable = context.read_drawable ? context.read_drawable : context.drawable;
   if (!drawable) return nullptr;
   const int bits = buffer_bits(context.color_buffer.read_buffer) & existing_buffers(context.visual);
@@ -76,6 +77,7 @@ raster::Framebuffer* read_framebuffer(Context& context) {
 }
 
 int draw_framebuffers(Context& context, raster::Framebuffer* out[2]) {
+  flush_vertices(context);
   const GLenum mode = context.color_buffer.draw_buffer;
   if (!context.drawable || mode == GL_NONE) return 0;
   const int bits = buffer_bits(mode) & existing_buffers(context.visual);

@@ -64,9 +64,11 @@ void make_current(Context* context, Drawable* drawable) {
     current_binding = {nullptr, &kNoContextTable};
     return;
   }
+  flush_vertices(*context);
   context->drawable = drawable;
   context->read_drawable = nullptr;
   current_binding = {context, context->table};
+  mark_dirty(*context, kDirtyFragment);  // the front end may have changed the visual
   if (drawable && !context->was_current) {
     context->was_current = true;
     size_to_drawable(*context);

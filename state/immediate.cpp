@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "state/context.h"
 #include "state/operations.gen.h"
@@ -28,6 +29,7 @@ void draw_gathered(Context& context, GLenum mode, uint32_t count) {
   const float* v = im.buffer.data();
   const size_t stride = im.vertex_floats() * sizeof(float);
   raster::DrawPacket packet;
+  packet.state = im.state;
   packet.primitive = primitive_of(mode);
   packet.index_count = packet.batch.count = count;
   packet.batch.position = {v, stride, 4};
@@ -102,35 +104,78 @@ bool make_room(Context& context) {
   return true;
 }
 
+// Vertices of one primitive, for modes whose primitives stand alone; 0: the others.
+uint32_t separate_vertices(GLenum mode) {
+  switch (mode) {
+    case GL_POINTS:
+      return 1;
+    case GL_LINES:
+      return 2;
+    case GL_TRIANGLES:
+      return 3;
+    case GL_QUADS:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+void start_batch(Context& context, GLenum mode, bool textured) {
+  ImmediateState& im = context.immediate;
+  flush_vertices(context);
+  im.state = derive(context);
+  im.mode = mode;
+  im.textured = textured;
+  im.color_varies = im.loop_parted = false;
+}
+
+void close_loop(Context& context) {
+  ImmediateState& im = context.immediate;
+  if (!im.loop_parted) return;
+  if (im.cursor == im.limit) part_batch(context);
+  std::copy_n(im.loop_first, im.vertex_floats(), im.cursor);
+  im.cursor += im.vertex_floats();
+}
+
 }  // namespace
+
+void flush_vertices(Context& context) {
+  const uint32_t count = std::exchange(context.immediate.waiting, 0);
+  draw_gathered(context, context.immediate.mode, count);
+}
 
 namespace op {
 
-void begin(Context& context, GLenum mode) {
+void begin(Context& context, GLenum mode) try {
   ImmediateState& im = context.immediate;
   if (im.inside) return record_error(context, GL_INVALID_OPERATION);
   if (mode > GL_POLYGON) return record_error(context, GL_INVALID_ENUM);
-  if (im.buffer.empty() && !grow(im)) return record_error(context, GL_OUT_OF_MEMORY);
+  if (im.buffer.empty() && !grow(im)) throw std::bad_alloc();
+  const bool textured = context.texture.enabled_1d || context.texture.enabled_2d;
+  // A colour that changed since End has been noticed by op::color.
+  const bool goes_on =
+      im.waiting && im.mode == mode && im.textured == textured && im.state == derive(context);
+  if (!goes_on) start_batch(context, mode, textured);
   im.inside = true;
-  im.mode = mode;
-  im.color_varies = im.loop_parted = false;
-  im.textured = context.texture.enabled_1d || context.texture.enabled_2d;
-  set_cursor(im, 0);
+  set_cursor(im, std::exchange(im.waiting, 0));
   set_table(context, kInsideBeginEndTable);
+} catch (const std::bad_alloc&) {
+  record_error(context, GL_OUT_OF_MEMORY, "begin");
 }
 
 void end(Context& context) {
   ImmediateState& im = context.immediate;
   if (!im.inside) return record_error(context, GL_INVALID_OPERATION);
-  if (im.loop_parted) {
-    if (im.cursor == im.limit) part_batch(context);
-    std::copy_n(im.loop_first, im.vertex_floats(), im.cursor);
-    im.cursor += im.vertex_floats();
-  }
-  draw_gathered(context, batch_mode(im), im.vertex_count());
+  close_loop(context);
+  const uint32_t count = im.vertex_count();
   im.inside = false;
   im.cursor = im.limit = nullptr;
   set_table(context, kExecuteTable);
+  if (const uint32_t n = separate_vertices(im.mode)) {
+    im.waiting = count - count % n;  // an unfinished primitive is dropped (spec 2.6.1)
+  } else {
+    draw_gathered(context, batch_mode(im), count);
+  }
 }
 
 void vertex(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
@@ -148,10 +193,10 @@ void vertex(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
   im.cursor = v + im.vertex_floats();
 }
 
-// Spec 2.11: the same as a polygon of these four vertices.
+// Spec 2.11: a polygon of these four vertices; as a quad it joins its neighbours.
 void rect(Context& context, GLfloat x1, GLfloat y1, GLfloat x2, GLfloat y2) {
   if (context.immediate.inside) return record_error(context, GL_INVALID_OPERATION);
-  begin(context, GL_POLYGON);
+  begin(context, GL_QUADS);
   vertex(context, x1, y1, 0, 1);
   vertex(context, x2, y1, 0, 1);
   vertex(context, x2, y2, 0, 1);

@@ -1,10 +1,13 @@
-// Begin/End (spec 2.6): vertices are gathered, and drawn at End or when the buffer is full.
+// Begin/End (spec 2.6): vertices are gathered and drawn together. Points, lines, triangles and quads wait
+// after End for the next Begin: while mode and state stay the same, many short pairs are one batch.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "raster/api/draw_state.h"
 #include "state/gl_types.h"
 
 namespace halfspace::state {
@@ -28,9 +31,15 @@ struct ImmediateState {
   float* limit = nullptr;
   float loop_first[kTexturedVertexFloats];  // a parted loop's first vertex
   std::vector<float> buffer;
+  uint32_t waiting = 0;                            // vertices of closed pairs that are not drawn yet
+  std::shared_ptr<const raster::DrawState> state;  // what the gathered vertices are drawn with
 
   uint32_t vertex_floats() const { return textured ? kTexturedVertexFloats : kPlainVertexFloats; }
   uint32_t vertex_count() const { return uint32_t(size_t(cursor - buffer.data()) / vertex_floats()); }
 };
+
+// Draws what waits. Whoever draws, clears, reads or shows pixels by another way than state/color_buffer.h's
+// functions calls this first.
+void flush_vertices(Context& context);
 
 }  // namespace halfspace::state

@@ -151,7 +151,7 @@ raster::Accuracy accuracy_from_environment() {
 
 void submit(Context& context, raster::DrawPacket& packet) try {
   if (!context.drawable || context.color_buffer.draw_buffer == GL_NONE) return;
-  packet.state = derive(context);
+  if (!packet.state) packet.state = derive(context);
   draw_to_buffers(context, context.device, [&](raster::Device& device) { device.draw(packet); });
 } catch (const std::bad_alloc&) {
   record_error(context, GL_OUT_OF_MEMORY, "a draw");

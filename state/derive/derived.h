@@ -41,8 +41,8 @@ raster::Accuracy accuracy_from_environment();
 // `mode`: GL_POINTS .. GL_POLYGON.
 raster::Primitive primitive_of(GLenum mode);
 
-// Draws on every buffer that drawing goes to. `packet.state` is filled in here. Out of memory is recorded as
-// GL_OUT_OF_MEMORY.
+// Draws on every buffer that drawing goes to. A null `packet.state` means the context's own. Out of memory is
+// recorded as GL_OUT_OF_MEMORY.
 void submit(Context& context, raster::DrawPacket& packet);
 
 }  // namespace halfspace::state

@@ -198,6 +198,7 @@ TEST_F(ArrayTest, ArrayElementIsTheImmediateCalls) {
   op::begin(*context, GL_TRIANGLES);
   for (GLint i : {2, 0, 1}) current_binding.table->array_element(*context, i);
   op::end(*context);
+  op::flush(*context);
   ASSERT_EQ(recorded_draws.size(), 1u);
   EXPECT_EQ(drawn_numbers(), (std::vector<uint32_t>{2, 0, 1}));
   EXPECT_EQ(recorded_draws[0].vertices[1].color, (std::array<float, 4>{1, 0, 0, 128 / 255.0f}));
@@ -263,6 +264,7 @@ TEST_F(ArrayTest, NullArraysDrawNothingAndTheNextDrawIsRight) {
   op::begin(*context, GL_POINTS);
   op::array_element(*context, 1);
   op::end(*context);
+  op::flush(*context);
   use_positions(positions);
   op::enable_client_state(*context, GL_COLOR_ARRAY);
   op::draw_arrays(*context, GL_POINTS, 0, 3);

@@ -16,6 +16,7 @@ class DoubleBufferedTest : public StateTest {
   std::vector<raster::Framebuffer*> targets_of_a_rectangle() {
     recorded_draws.clear();
     op::rect(*context, 0, 0, 1, 1);
+    flush_vertices(*context);
     std::vector<raster::Framebuffer*> targets;
     for (const auto& draw : recorded_draws) targets.push_back(draw.target);
     return targets;

@@ -77,6 +77,26 @@ std::vector<std::pair<Shape, Corner>> decompose_recorded() {
 class ImmediateTest : public StateTest {
  protected:
   ImmediateTest() { recorded_draws.clear(); }
+  // The drawing of separate primitives waits for its neighbours; a flush ends the wait.
+  void end() {
+    op::end(*context);
+    op::flush(*context);
+  }
+  void rect(float x1, float y1, float x2, float y2) {
+    op::rect(*context, x1, y1, x2, y2);
+    op::flush(*context);
+  }
+  // One point, line ... at x; draws nothing yet.
+  void add(GLenum mode, uint32_t vertices, float x) {
+    op::begin(*context, mode);
+    for (uint32_t i = 0; i < vertices; ++i) op::vertex(*context, x, float(i), 0, 1);
+    op::end(*context);
+  }
+  static std::vector<size_t> batch_sizes() {
+    std::vector<size_t> sizes;
+    for (const RecordedDraw& draw : recorded_draws) sizes.push_back(draw.vertices.size());
+    return sizes;
+  }
   void feed(const std::vector<Corner>& corners) {
     for (const Corner& c : corners) {
       op::color(*context, c.color[0], c.color[1], c.color[2], c.color[3]);
@@ -101,24 +121,27 @@ TEST_F(ImmediateTest, EveryModeArrivesAsGiven) {
     recorded_draws.clear();
     op::begin(*context, mode);
     feed(corners);
-    op::end(*context);
+    end();
     ASSERT_EQ(recorded_draws.size(), 1u);
     EXPECT_EQ(GLenum(recorded_draws[0].primitive), mode);
-    EXPECT_EQ(recorded_draws[0].vertices, corners);
+    // Of separate primitives only whole ones arrive.
+    const size_t n = mode == GL_LINES ? 2 : mode == GL_TRIANGLES ? 3 : mode == GL_QUADS ? 4 : 1;
+    EXPECT_EQ(recorded_draws[0].vertices,
+              std::vector<Corner>(corners.begin(), corners.begin() + ptrdiff_t(corners.size() / n * n)));
     EXPECT_EQ(recorded_draws[0].target, &drawable.front());
   }
 }
 
 TEST_F(ImmediateTest, LongPrimitivesPartWithoutASeam) {
   op::enable(*context, GL_TEXTURE_2D);
-  for (size_t count : {size_t{kMaxBatchVertices}, size_t{kMaxBatchVertices} + 1,
+  for (size_t count : {size_t{kMaxBatchVertices}, size_t{kMaxBatchVertices} + 4,
                        size_t{kMaxBatchVertices} * 2 - 1, size_t{kMaxBatchVertices} * 2 + 7}) {
     const auto corners = numbered(count);
     for (GLenum mode = GL_POINTS; mode <= GL_POLYGON; ++mode) {
       recorded_draws.clear();
       op::begin(*context, mode);
       feed(corners);
-      op::end(*context);
+      end();
       for (const RecordedDraw& draw : recorded_draws) EXPECT_LE(draw.batch_count, kMaxBatchVertices);
       EXPECT_EQ(recorded_draws.size() > 1, count > kMaxBatchVertices) << mode;
       EXPECT_TRUE(decompose_recorded() == decompose(mode, corners)) << "mode " << mode << ", " << count;
@@ -134,7 +157,7 @@ TEST_F(ImmediateTest, AColourThatNeverChangesIsConstant) {
     op::color(*context, 1, 0.5f, 0, 1);  // again, and the same
     op::vertex(*context, float(i), 0, 0, 1);
   }
-  op::end(*context);
+  end();
   ASSERT_EQ(recorded_draws.size(), 1u);
   EXPECT_TRUE(recorded_draws[0].constant_color);
   EXPECT_FALSE(recorded_draws[0].has_tex_coord);
@@ -144,13 +167,13 @@ TEST_F(ImmediateTest, AColourThatNeverChangesIsConstant) {
   op::vertex(*context, 0, 0, 0, 1);
   op::color(*context, 0, 0, 0, 1);
   op::vertex(*context, 1, 0, 0, 1);
-  op::end(*context);
+  end();
   EXPECT_FALSE(recorded_draws[1].constant_color);
   EXPECT_EQ(recorded_draws[1].vertices[0].color, (std::array<float, 4>{1, 0.5f, 0, 1}));
   EXPECT_EQ(recorded_draws[1].vertices[1].color, (std::array<float, 4>{0, 0, 0, 1}));
   op::begin(*context, GL_POINTS);  // what the last batch did is forgotten
   op::vertex(*context, 0, 0, 0, 1);
-  op::end(*context);
+  end();
   EXPECT_TRUE(recorded_draws[2].constant_color);
   // The current colour outlives End.
   EXPECT_EQ(context->current.color[0], 0);
@@ -158,17 +181,17 @@ TEST_F(ImmediateTest, AColourThatNeverChangesIsConstant) {
 
 TEST_F(ImmediateTest, NothingIsDrawnWithoutVerticesOrOutside) {
   op::begin(*context, GL_TRIANGLES);
-  op::end(*context);
+  end();
   op::vertex(*context, 0, 0, 0, 1);
   op::begin(*context, GL_POINTS);
   op::vertex(*context, 5, 0, 0, 1);
-  op::end(*context);
+  end();
   ASSERT_EQ(recorded_draws.size(), 1u);
   EXPECT_EQ(recorded_draws[0].vertices.size(), 1u);
 }
 
-TEST_F(ImmediateTest, RectIsAPolygonCounterClockwise) {
-  op::rect(*context, 1, 2, 3, 4);
+TEST_F(ImmediateTest, RectIsAQuadCounterClockwise) {
+  rect(1, 2, 3, 4);
   ASSERT_EQ(recorded_draws.size(), 1u);
   const auto& v = recorded_draws[0].vertices;
   ASSERT_EQ(v.size(), 4u);
@@ -177,32 +200,113 @@ TEST_F(ImmediateTest, RectIsAPolygonCounterClockwise) {
   EXPECT_EQ(current_binding.table, &kExecuteTable);
 }
 
+TEST_F(ImmediateTest, NeighbouringPairsAreOneBatch) {
+  using Sizes = std::vector<size_t>;
+  for (auto [mode, n] : {std::pair{GL_POINTS, 1u}, {GL_LINES, 2u}, {GL_TRIANGLES, 3u}, {GL_QUADS, 4u}}) {
+    recorded_draws.clear();
+    for (int i = 0; i < 3; ++i) add(GLenum(mode), 2 * n + n - 1, float(i));  // the last one unfinished
+    EXPECT_TRUE(recorded_draws.empty());
+    op::flush(*context);
+    const size_t each = mode == GL_POINTS ? 2 : 2 * n;
+    ASSERT_EQ(batch_sizes(), Sizes{3 * each}) << mode;
+    for (size_t i = 0; i < 3 * each; ++i)
+      EXPECT_EQ(recorded_draws[0].vertices[i].position[0], float(i / each));
+  }
+  // Strips and their like do not wait.
+  recorded_draws.clear();
+  add(GL_TRIANGLE_STRIP, 3, 0);
+  add(GL_TRIANGLE_STRIP, 4, 0);
+  EXPECT_EQ(batch_sizes(), (Sizes{3, 4}));
+}
+
+TEST_F(ImmediateTest, WhatDiffersIsABatchOfItsOwnInOrder) {
+  using Sizes = std::vector<size_t>;
+  add(GL_TRIANGLES, 3, 0);
+  add(GL_QUADS, 4, 1);  // another mode
+  op::enable(*context, GL_BLEND);
+  add(GL_QUADS, 8, 2);  // another state
+  op::enable(*context, GL_TEXTURE_2D);
+  add(GL_QUADS, 12, 3);  // another vertex
+  add(GL_LINE_STRIP, 2, 4);
+  const float point[] = {5, 0};
+  add(GL_POINTS, 3, 5);
+  op::vertex_pointer(*context, 2, GL_FLOAT, 0, point);
+  op::enable_client_state(*context, GL_VERTEX_ARRAY);
+  op::draw_arrays(*context, GL_POINTS, 0, 1);
+  EXPECT_EQ(batch_sizes(), (Sizes{3, 4, 8, 12, 2, 3, 1}));
+  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(recorded_draws[i].vertices[0].position[0], float(i));
+  EXPECT_FALSE(recorded_draws[1].state->blend.enabled);
+  EXPECT_TRUE(recorded_draws[2].state->blend.enabled);
+}
+
+TEST_F(ImmediateTest, StateSetAfterEndDoesNotReachWhatWaits) {
+  add(GL_TRIANGLES, 3, 0);
+  op::enable(*context, GL_BLEND);
+  op::draw_buffer(*context, GL_NONE);
+  ASSERT_EQ(recorded_draws.size(), 1u);
+  EXPECT_FALSE(recorded_draws[0].state->blend.enabled);
+}
+
+TEST_F(ImmediateTest, ColoursChangedBetweenPairsVary) {
+  op::color(*context, 1, 0, 0, 1);
+  add(GL_POINTS, 1, 0);
+  op::color(*context, 0, 1, 0, 1);
+  add(GL_POINTS, 1, 1);
+  op::flush(*context);
+  ASSERT_EQ(batch_sizes(), std::vector<size_t>{2});
+  EXPECT_FALSE(recorded_draws[0].constant_color);
+  EXPECT_EQ(recorded_draws[0].vertices[0].color, (std::array<float, 4>{1, 0, 0, 1}));
+  EXPECT_EQ(recorded_draws[0].vertices[1].color, (std::array<float, 4>{0, 1, 0, 1}));
+}
+
+TEST_F(ImmediateTest, WaitingBatchesPartWithoutASeamToo) {
+  op::enable(*context, GL_TEXTURE_2D);
+  const size_t kPairs = kMaxBatchVertices / 3 + 100;
+  for (size_t i = 0; i < kPairs; ++i) add(GL_TRIANGLES, 3, float(i));
+  op::flush(*context);
+  EXPECT_EQ(batch_sizes(), (std::vector<size_t>{kMaxBatchVertices, 300}));
+  EXPECT_EQ(recorded_draws[1].vertices[0].position[0], float(kMaxBatchVertices / 3));
+}
+
+TEST_F(ImmediateTest, ReadingAndReleasingEndTheWait) {
+  add(GL_POINTS, 1, 0);
+  read_framebuffer(*context);
+  EXPECT_EQ(recorded_draws.size(), 1u);
+  add(GL_POINTS, 1, 0);
+  op::clear(*context, GL_COLOR_BUFFER_BIT);
+  EXPECT_EQ(recorded_draws.size(), 2u);
+  add(GL_POINTS, 1, 0);
+  make_current(nullptr, nullptr);
+  EXPECT_EQ(recorded_draws.size(), 3u);
+  EXPECT_EQ(recorded_draws[2].target, &drawable.front());
+}
+
 TEST_F(ImmediateTest, OutOfMemoryIsAnErrorAndTheNextDrawIsRight) {
   raster::fail_next_draw = true;
-  op::rect(*context, 0, 0, 1, 1);
+  rect(0, 0, 1, 1);
   EXPECT_EQ(op::get_error(*context), GLenum(GL_OUT_OF_MEMORY));
   EXPECT_TRUE(recorded_draws.empty());
-  op::rect(*context, 0, 0, 1, 1);
+  rect(0, 0, 1, 1);
   EXPECT_EQ(op::get_error(*context), GLenum(GL_NO_ERROR));
   EXPECT_EQ(recorded_draws.size(), 1u);
 }
 
 TEST_F(ImmediateTest, DrawBufferNoneDrawsNothing) {
   op::draw_buffer(*context, GL_NONE);
-  op::rect(*context, 0, 0, 1, 1);
+  rect(0, 0, 1, 1);
   EXPECT_TRUE(recorded_draws.empty());
   EXPECT_EQ(op::get_error(*context), GLenum(GL_NO_ERROR));
 }
 
 // A draw keeps the state it was made with; unchanged state is not made again.
 TEST_F(ImmediateTest, DrawStateIsMadeOnceAChange) {
-  op::rect(*context, 0, 0, 1, 1);
-  op::rect(*context, 0, 0, 1, 1);
+  rect(0, 0, 1, 1);
+  rect(0, 0, 1, 1);
   op::depth_func(*context, GL_GEQUAL);
   op::enable(*context, GL_CULL_FACE);
   op::cull_face(*context, GL_FRONT);
   op::shade_model(*context, GL_FLAT);
-  op::rect(*context, 0, 0, 1, 1);
+  rect(0, 0, 1, 1);
   ASSERT_EQ(recorded_draws.size(), 3u);
   EXPECT_EQ(recorded_draws[0].state, recorded_draws[1].state);
   const raster::DrawState &before = *recorded_draws[1].state, &after = *recorded_draws[2].state;
