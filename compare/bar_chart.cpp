@@ -34,7 +34,10 @@ std::string bar_svg(const Bar& bar, double y, double scale, const std::string& u
   svg += "<rect x=\"" + number(kLabelWidth) + "\" y=\"" + number(y) + "\" width=\"" + number(length) +
          "\" height=\"" + number(kBarHeight) + "\" rx=\"2\" fill=\"" + (bar.good ? "#4c8bf5" : "#d9534f") +
          "\"/>\n";
-  svg += text_at(kLabelWidth + length + 6, y + kBarHeight - 5, "start", short_number(bar.value) + unit);
+  // Not under the target's mark, when that stands just behind the bar.
+  const double mark = bar.target * scale;
+  const double end = mark > length && mark < length + 50 ? mark : length;
+  svg += text_at(kLabelWidth + end + 6, y + kBarHeight - 5, "start", short_number(bar.value) + unit);
   if (bar.target > 0)
     svg += line(kLabelWidth + bar.target * scale, y - 3, y + kBarHeight + 3,
                 "stroke=\"#8a8f95\" stroke-width=\"2\"");
