@@ -120,12 +120,12 @@ uint32_t separate_vertices(GLenum mode) {
   }
 }
 
-void start_batch(Context& context, GLenum mode, bool textured) {
+void start_batch(Context& context, GLenum mode) {
   ImmediateState& im = context.immediate;
   flush_vertices(context);
   im.state = derive(context);
   im.mode = mode;
-  im.textured = textured;
+  im.textured = context.texture.enabled_1d || context.texture.enabled_2d;
   im.color_varies = im.loop_parted = false;
 }
 
@@ -151,11 +151,9 @@ void begin(Context& context, GLenum mode) try {
   if (im.inside) return record_error(context, GL_INVALID_OPERATION);
   if (mode > GL_POLYGON) return record_error(context, GL_INVALID_ENUM);
   if (im.buffer.empty() && !grow(im)) throw std::bad_alloc();
-  const bool textured = context.texture.enabled_1d || context.texture.enabled_2d;
   // A colour that changed since End has been noticed by op::color.
-  const bool goes_on =
-      im.waiting && im.mode == mode && im.textured == textured && im.state == derive(context);
-  if (!goes_on) start_batch(context, mode, textured);
+  const bool goes_on = im.waiting && im.mode == mode && im.state == derive(context);
+  if (!goes_on) start_batch(context, mode);
   im.inside = true;
   set_cursor(im, std::exchange(im.waiting, 0));
   set_table(context, kInsideBeginEndTable);
