@@ -81,7 +81,7 @@ TEST(Identity, SplitDrawsChangeNothing) {
   for (const Scene& scene : all_scenes()) {
     Scene split{scene.name, {}};
     for (const SceneDraw& whole : scene.draws) {
-      if (whole.primitive != Primitive::triangles || !whole.indices.empty() || whole.vertices.size() > 600) {
+      if (whole.primitive != Primitive::triangles || !whole.indices.empty() || whole.vertices.size() > 2100) {
         split.draws.push_back(whole);
         continue;
       }

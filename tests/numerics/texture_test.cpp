@@ -230,6 +230,39 @@ TEST(TextureLinear, ExactAccuracyRoundsOnce) {
   }
 }
 
+// Triangles as wide as a large window: float is taken only as far as it reaches.
+TEST(TextureLinear, WideTrianglesStayWithinHalfALevel) {
+  Random random(8);
+  constexpr int kWide = 1024;
+  TestTexture texture;
+  texture.add_noise(random, 256, 256);
+  const Sampler sampler = sampler_of(Filter::linear, Wrap::repeat);
+  const oracle::Texture reference = texture.reference(sampler);
+  const DrawState state = replace_state(kWide, texture.view(sampler));
+  Canvas canvas(kWide, kWide, 2);
+  for (int round = 0; round < (long_tests() ? 40 : 4); ++round) {
+    const Case c{Filter::linear, Wrap::repeat, Wrap::repeat, 8, 8, 0, round % 2 == 1, false};
+    const TexturedTriangle textured = random_triangle(random, c);
+    const oracle::Triangle triangle(state.viewport, textured.clip);
+    canvas.clear();
+    canvas.draw(state, Primitive::triangles, textured.vertices);
+    const Picture picture = canvas.read();
+    for (int i = 0; i < 4000; ++i) {
+      const int x = int(random.integer(0, kWide - 1)), y = int(random.integer(0, kWide - 1));
+      if (!triangle.covers(x, y)) continue;
+      const auto s = triangle.attribute(textured.s, x, y).value,
+                 t = triangle.attribute(textured.t, x, y).value;
+      const oracle::Rgba exact = oracle::sample_level(reference, 0, Filter::linear, s, t);
+      const std::array<int, 4> is = bytes_at(picture, x, y);
+      for (size_t k = 0; k < 4; ++k) {
+        ASSERT_LE(std::fabs(double(exact[k] * 255) - is[k]), kBilinearTolerance)
+            << "triangle " << round << ", pixel " << x << ", " << y << ", s " << double(s) << ", t "
+            << double(t) << ": exact " << double(exact[k] * 255) << ", is " << is[k];
+      }
+    }
+  }
+}
+
 // A floor to the horizon, w from 1 to 10^4, texture coordinates up to 10^4 repeats: double on demand.
 TEST(TextureLinear, HorizonStaysWithinHalfALevel) {
   Random random(5);

@@ -236,6 +236,34 @@ void small_triangles(SceneMaker& m, Scene& scene) {
   scene.draws.push_back(draw);
 }
 
+// Triangles of a few pixels with everything a fragment can ask for, so that many of them share what is shaded
+// at once.
+void small_mixed_triangles(SceneMaker& m, Scene& scene) {
+  for (int variant = 0; variant < 12; ++variant) {
+    SceneDraw draw{m.state(), Primitive::triangles, {}, {}};
+    draw.state.raster.flat_shading = variant % 3 == 1;
+    draw.state.depth.test = variant % 4 != 3;
+    if (variant % 2) draw.state.texture.view = m.noise(BaseFormat::rgba, 16, 16, m.any_sampler());
+    if (variant % 4 == 2) draw.state.blend = {true, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
+    if (variant % 5 == 4) draw.state.alpha_test = {true, CompareFunc::greater, 0.5f};
+    for (int i = 0; i < 700; ++i) {
+      const Vertex center = m.vertex(1, variant < 6 ? 1.0f : 3.0f);
+      const Color color = m.color();
+      for (int k = 0; k < 3; ++k) {
+        Vertex v = center;
+        v.x += center.w * m.random().real(-0.04f, 0.04f);
+        v.y += center.w * m.random().real(-0.04f, 0.04f);
+        // Constant colours, and varying ones.
+        v.color = variant % 3 == 2 ? color : m.color();
+        v.s = m.random().real(-2, 2);
+        v.t = m.random().real(-2, 2);
+        draw.vertices.push_back(v);
+      }
+    }
+    scene.draws.push_back(draw);
+  }
+}
+
 void accuracies(SceneMaker& m, Scene& scene) {
   for (Accuracy accuracy : {Accuracy::draft, Accuracy::standard, Accuracy::exact}) {
     for (Filter filter : {Filter::nearest, Filter::linear}) {
@@ -325,7 +353,8 @@ std::vector<Scene> scenes(int size) {
                {"small_triangles", small_triangles},
                {"accuracies", accuracies},
                {"horizon", horizon},
-               {"matrices", matrices}});
+               {"matrices", matrices},
+               {"small_mixed_triangles", small_mixed_triangles}});
 }
 
 std::vector<Scene> far_scenes(int size) { return make(size, 2000, {{"far_corners", far_corners}}); }
