@@ -1,6 +1,4 @@
 // Contexts: sharing, threads, refusals, two drawables, displays that close.
-#include <sys/wait.h>
-
 #include <thread>
 
 #include "tests/apps/glx_fixture.h"
