@@ -1,6 +1,8 @@
 // 8-bit blending rounds once. Against exact integers.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "tests/oracle/fragment.h"
 #include "tests/support/canvas.h"
 #include "tests/support/random.h"
@@ -40,7 +42,13 @@ TEST(Blend, SourceAlphaOfEveryByte) {
   Canvas canvas(kSize, kSize);
   const auto columns = stripes(true, [](int d) { return from_bytes(d, 255 - d, d ^ 0x55, d); });
   const BlendState blend{true, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
-  for (int a = 0; a < 256; a += long_tests() ? 1 : 15) {
+  // No common factor with 255, or the sums that are hardest to round never occur.
+  std::vector<int> alphas{0, 1, 2, 7, 43, 77, 101, 127, 128, 151, 202, 254, 255};
+  if (long_tests()) {
+    alphas.resize(256);
+    std::iota(alphas.begin(), alphas.end(), 0);
+  }
+  for (const int a : alphas) {
     canvas.draw(plain_state(kSize, kSize), Primitive::quads, columns);
     canvas.draw(state_with(blend.src, blend.dst), Primitive::quads,
                 stripes(false, [a](int s) { return from_bytes(s, s, (s * 7) & 255, a); }));
