@@ -33,6 +33,20 @@ HWY_INLINE hn::Vec<To> DemoteGroup(To d, const VD& v) {
   }
 }
 
+// Towards zero, for values an int32 can hold; anything else gives some int32. Highway's ConvertTo saturates, which takes
+// four instructions more.
+HWY_INLINE VI TruncateInRange(VF v) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  return VI{_mm256_cvttps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_SSE4
+  return VI{_mm_cvttps_epi32(v.raw)};
+#else
+  return hn::ConvertTo(DI(), v);
+#endif
+}
+
+// Iota is always taken from 0, a constant: from a variable it goes through memory and stalls.
+
 // What the stages of a fused kernel hand on in registers.
 struct Lanes {
   VF slot[kSlotCount];
@@ -68,7 +82,7 @@ HWY_INLINE VD PlaneAtDouble(const BlockContext& c, int plane, int i) {
   const double row = s.f0[plane][k] + s.dfdy[plane][k] * (c.dy + i / kBlockSize);
   VD v;
   for (int p = 0; p < kDoubleParts; ++p) {
-    const auto dx = hn::Iota(DD(), c.dx + (i % kBlockSize + p * kDoubleLanes));
+    const auto dx = hn::Add(hn::Iota(DD(), 0), hn::Set(DD(), c.dx + (i % kBlockSize + p * kDoubleLanes)));
     v.part[p] = hn::Add(hn::Set(DD(), row), hn::Mul(hn::Set(DD(), s.dfdx[plane][k]), dx));
   }
   return v;
@@ -98,7 +112,7 @@ struct BlockLanes {
     const SetupBatch& s = *c.setup;
     const float dy = static_cast<float>(c.dy) + static_cast<float>(i / kBlockSize);
     const float row = s.f0_f[plane][k] + s.dfdy_f[plane][k] * dy;
-    const VF dx = hn::Iota(DF(), static_cast<float>(c.dx) + static_cast<float>(i % kBlockSize));
+    const VF dx = hn::Add(hn::Iota(DF(), 0), hn::Set(DF(), static_cast<float>(c.dx) + static_cast<float>(i % kBlockSize)));
     return hn::Add(hn::Set(DF(), row), hn::Mul(hn::Set(DF(), s.dfdx_f[plane][k]), dx));
   }
   static HWY_INLINE VF FlatColor(const BlockContext& c, int channel, int) {

@@ -9,33 +9,29 @@ inline constexpr int kQueueParts = kQueueLanes / kDoubleLanes;
 inline constexpr int kWindow = 8;       // pixels a side
 inline constexpr int kPackAtMost = 40;  // pixels of a block; with more, its rows are full enough to go as they are
 
-// Positions of the bits of a byte, packed into the low bytes.
-struct BitPositions {
-  uint64_t of[256];
-};
-constexpr BitPositions MakeBitPositions() {
-  BitPositions table{};
-  for (unsigned byte = 0; byte < 256; ++byte) {
-    int n = 0;
-    for (unsigned bit = 0; bit < 8; ++bit)
-      if ((byte >> bit & 1) != 0) table.of[byte] |= uint64_t{bit} << (8 * n++);
+// Takes the lowest kQueueLanes set bits off `mask` and returns their indices, one byte each; bytes beyond the last are
+// 0. In a register: a list in memory, written by bytes and read by words, would stall.
+HWY_INLINE uint64_t TakeBits(uint64_t& mask) {
+  uint64_t word = 0;
+  for (int j = 0; j < kQueueLanes; ++j) {
+    const auto index = static_cast<uint64_t>(mask != 0 ? __builtin_ctzll(mask) : 0);
+    word |= index << (8 * j);
+    mask &= mask - 1;
   }
-  return table;
+  return word;
 }
-inline constexpr BitPositions kBitPositions = MakeBitPositions();
 
-// Indices of the set bits, ascending; returns how many. `list` needs 8 bytes more than that, which repeat the last.
-HWY_INLINE int ListBits(uint64_t mask, uint8_t* list) {
-  int count = 0;
-  for (int row = 0; row < 8; ++row) {
-    const auto byte = static_cast<unsigned>(mask >> (8 * row) & 255u);
-    const uint64_t packed = kBitPositions.of[byte] + 0x0808080808080808u * static_cast<unsigned>(row);
-    __builtin_memcpy(list + count, &packed, 8);
-    count += __builtin_popcount(byte);
-  }
-  const uint64_t last = 0x0101010101010101u * list[count - 1];
-  __builtin_memcpy(list + count, &last, 8);
-  return count;
+// memory[offset[j]] for each lane. By plain loads where that is known to beat the gather instruction.
+HWY_INLINE hn::Vec<DIq> GatherPixels(const int32_t* memory, const int32_t* offset, hn::Vec<DIq> offsets) {
+  (void)offset, (void)offsets;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  return hn::Vec<DIq>{_mm256_setr_epi32(memory[offset[0]], memory[offset[1]], memory[offset[2]], memory[offset[3]],
+                                        memory[offset[4]], memory[offset[5]], memory[offset[6]], memory[offset[7]])};
+#elif HWY_TARGET == HWY_SSE4
+  return hn::Vec<DIq>{_mm_setr_epi32(memory[offset[0]], memory[offset[1]], memory[offset[2]], memory[offset[3]])};
+#else
+  return hn::GatherIndex(DIq(), memory, offsets);
+#endif
 }
 
 struct QueuedDoubles {
@@ -88,18 +84,20 @@ struct Packer {
   unsigned variant = 0;  // of all that waits
   uint64_t blocks = 0;   // of the tile, that something waits for
 
-  // Fragments of one primitive at the listed pixels of the window whose first pixel is (x, y) of the tile.
-  HWY_INLINE void Append(const SetupBatch& s, int lane, int x, int y, const uint8_t* list, int count,
-                         const PipelineProgram& program, int plane_count, uint32_t* depth) {
+  // Fragments of one primitive at the pixels `mask` of the window whose first pixel is (x, y) of the tile.
+  HWY_INLINE void Append(const SetupBatch& s, int lane, int x, int y, uint64_t mask, const PipelineProgram& program,
+                         int plane_count, uint32_t* depth) {
     const DFq df;
     const DIq di;
     const hn::Rebind<uint8_t, DIq> bytes;
-    for (int first = 0; first < count; first += kQueueLanes) {
-      const auto index = hn::PromoteTo(di, hn::LoadU(bytes, list + first));
+    while (mask != 0) {
+      const int count = __builtin_popcountll(mask);
+      const uint64_t indices = TakeBits(mask);
+      const auto index = hn::PromoteTo(di, hn::LoadU(bytes, reinterpret_cast<const uint8_t*>(&indices)));
       const auto px = hn::Add(hn::And(index, hn::Set(di, 7)), hn::Set(di, x));
       const auto py = hn::Add(hn::ShiftRight<3>(index), hn::Set(di, y));
       const auto offset = TileOffset(px, py);
-      auto live = hn::Lt(hn::Iota(di, first), hn::Set(di, count));
+      auto live = hn::Lt(hn::Iota(di, 0), hn::Set(di, count));
       if (depth != nullptr) live = DepthTest(s, lane, px, py, offset, live, program.depth, depth);
       const auto dx = hn::Add(hn::ConvertTo(df, px), hn::Set(df, static_cast<float>(s.anchor_x[lane])));
       const auto dy = hn::Add(hn::ConvertTo(df, py), hn::Set(df, static_cast<float>(s.anchor_y[lane])));
@@ -129,8 +127,8 @@ struct Packer {
     return hn::Add(block, hn::Add(hn::ShiftLeft<3>(hn::And(y, low)), hn::And(x, low)));
   }
 
-  // Tests and writes. Lanes that are not live repeat the last live one's pixel: memory is written from the last lane
-  // to the first, so the live one's value stays.
+  // Tests and writes. Lanes that are not live stand for the window's first pixel, which only the first lane may have
+  // too: memory is written from the last lane to the first, so a live value stays.
   static HWY_INLINE hn::Mask<DIq> DepthTest(const SetupBatch& s, int lane, hn::Vec<DIq> px, hn::Vec<DIq> py,
                                             hn::Vec<DIq> offset, hn::Mask<DIq> live, const DepthState& test,
                                             uint32_t* depth) {
@@ -144,12 +142,13 @@ struct Packer {
       z.part[p] = hn::Add(row, hn::Mul(hn::Set(d, s.dfdx[0][lane]), dx));
     }
     const auto value = hn::Min(hn::Max(DemoteQueued(di, z), hn::Zero(di)), hn::Set(di, static_cast<int32_t>(kDepthMax)));
-    const auto old = hn::GatherIndex(di, reinterpret_cast<const int32_t*>(depth), offset);
+    alignas(64) int32_t at[8];
+    hn::Store(offset, di, at);
+    const auto old = GatherPixels(reinterpret_cast<const int32_t*>(depth), at, offset);
     const auto pass = hn::And(live, PassesDepth(test.func, value, old));
     if (test.write) {
-      alignas(64) int32_t values[8], at[8];
+      alignas(64) int32_t values[8];
       hn::Store(hn::IfThenElse(pass, value, old), di, values);
-      hn::Store(offset, di, at);
       for (int j = kQueueLanes - 1; j >= 0; --j) depth[at[j]] = static_cast<uint32_t>(values[j]);
     }
     return pass;

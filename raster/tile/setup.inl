@@ -206,9 +206,10 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
   bool any_cut = false;
   for (int lane = 0; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    Corner corners[3];
-    GatherCorners(segment, draw.vertices, stride, ref, corners);
-    StoreCorners(corners, layout.attribute_count, lane, in);
+    VertexHead made[3];
+    const VertexHead* corners[3];
+    FindCorners(segment, draw.vertices, stride, ref, made, corners);
+    StoreCorners(corners, made, ref.cut, layout.attribute_count, lane, in);
     any_cut |= ref.cut;
   }
   SetBox(in, center_x, center_y, limit, out);

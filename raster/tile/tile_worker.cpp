@@ -139,10 +139,8 @@ void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint64_t 
   PrepareWindow(t, blocks);
   packer.blocks |= blocks;
   t.statistics->fragments += static_cast<uint64_t>(count);
-  uint8_t list[kWindow * kWindow + 8];
-  ListBits(mask, list);
   const int first = packer.queue.count;
-  packer.Append(s, lane, x, y, list, count, *t.program, t.plane_count,
+  packer.Append(s, lane, x, y, mask, *t.program, t.plane_count,
                 t.program->reads_depth ? t.framebuffer->depth_tile(t.tile) : nullptr);
   if (t.flat_color) packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
 }
@@ -241,12 +239,15 @@ void RunSegment(TileContext& t, const Segment& segment) {
       while (count < kSetupLanes && at + static_cast<size_t>(count) < total && ids[at + static_cast<size_t>(count)] < end)
         ++count;
       SetUp(segment, record, ids + at, count, t.x, t.y, t.limit, t.input, t.setup);
+      const size_t next = at + static_cast<size_t>(count);
+      PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + next,
+                      total - next < kSetupLanes ? total - next : kSetupLanes);
       for (int lane = 0; lane < count; ++lane) {
         const PrimitiveRef& ref = segment.primitives.data()[ids[at + static_cast<size_t>(lane)]];
         if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
         else RunLineOrPoint(t, ref, segment, record, lane);
       }
-      at += static_cast<size_t>(count);
+      at = next;
     }
   }
 }

@@ -49,7 +49,7 @@ struct TriangleWalk {
     constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
     uint64_t mask = 0;
     for (int column = 0; column < kBlockSize; column += kWidth) {
-      const auto lanes = hn::Iota(d, column);
+      const auto lanes = hn::Add(hn::Iota(d, 0), hn::Set(d, column));
       auto v0 = hn::Add(hn::Set(d, e[0] + first * step_y[0]), hn::Mul(lanes, hn::Set(d, step_x[0])));
       auto v1 = hn::Add(hn::Set(d, e[1] + first * step_y[1]), hn::Mul(lanes, hn::Set(d, step_x[1])));
       auto v2 = hn::Add(hn::Set(d, e[2] + first * step_y[2]), hn::Mul(lanes, hn::Set(d, step_x[2])));

@@ -20,7 +20,7 @@ HWY_INLINE V BlendWeight(D d, BlendFactor factor, const V* s, const V* dst, int 
   return one;
 }
 
-HWY_INLINE VI RoundToByte(VF v) { return hn::ConvertTo(DI(), hn::Add(v, hn::Set(DF(), 0.5f))); }
+HWY_INLINE VI RoundToByte(VF v) { return TruncateInRange(hn::Add(v, hn::Set(DF(), 0.5f))); }
 
 struct BlendRgba8 {
   static constexpr bool kKills = false, kPacks = false;

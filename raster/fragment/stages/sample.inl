@@ -15,7 +15,7 @@ HWY_INLINE VF TexelCoord(VF s, VF size, Wrap wrap, float center) {
 // Index in [lowest, size - 1] whatever u is: out-of-range and NaN lanes are dead, but their loads must be safe.
 HWY_INLINE VI TexelIndex(VF floor_u, VI size, int lowest) {
   const DI d;
-  return hn::Min(hn::Max(hn::ConvertTo(d, floor_u), hn::Set(d, lowest)), hn::Sub(size, hn::Set(d, 1)));
+  return hn::Min(hn::Max(TruncateInRange(floor_u), hn::Set(d, lowest)), hn::Sub(size, hn::Set(d, 1)));
 }
 
 HWY_INLINE void UnpackTexels(VU texel, Lanes& v) {
