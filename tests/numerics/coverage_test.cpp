@@ -222,17 +222,26 @@ TEST(Coverage, OrderOfCornersDoesNotMatter) {
   }
 }
 
-// Corners that fall between the grid's points are taken to floor(v * 256 + 1/2), below zero too.
+// Corners that fall between the grid's points are taken to floor(v * 256 + 1/2), below zero too; every other
+// triangle's fall exactly halfway.
 TEST(Coverage, CornersAreSnappedToTheNearestGridPoint) {
   Random random(14);
   for (int i = 0; i < 60; ++i) {
     std::vector<Vertex> vertices(3);
     SnappedTriangle t;
     for (size_t k = 0; k < 3; ++k) {
-      vertices[k].x = random.real(-1.3f, 1.0f);
-      vertices[k].y = random.real(-1.3f, 1.0f);
+      // -1.3 .. 1, in steps of half a grid point when they are to be halfway: then on pixel centres after
+      // snapping.
+      const auto coordinate = [&] {
+        if (i % 2 == 0) return random.real(-1.3f, 1.0f);
+        const int64_t centre = kPixel * random.integer(-16, 80) + kCenter;
+        return float(2 * centre - 1 - kPixel * kViewport) / float(kPixel * kViewport);
+      };
+      vertices[k].x = coordinate();
+      vertices[k].y = coordinate();
       t[k].x = oracle::snap((static_cast<long double>(vertices[k].x) + 1) * kViewport / 2);
       t[k].y = oracle::snap((static_cast<long double>(vertices[k].y) + 1) * kViewport / 2);
+      ASSERT_TRUE(i % 2 == 0 || (t[k].x - kCenter) % kPixel == 0);
     }
     Canvas canvas(kWidth, kHeight);
     canvas.draw_plain(counting_state(), Primitive::triangles, vertices, kOne);
