@@ -1,0 +1,34 @@
+// What is found about one scene, whether it keeps the promise, and both as text and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/scene_run.h"
+#include "tests/differential/judgement.h"
+
+namespace halfspace::differential {
+
+// What the standard level promises against the truth.
+constexpr double kMostInteriorLevels = 0.55;
+constexpr double kMostWrongPercent = 0.02;
+
+struct SceneVerdict {
+  int scene = 0;
+  double truth_seconds = 0;
+  uint64_t owned = 0;  // pixels that show some primitive
+  Judgement ours, ours_draft;
+  // Absent when there is no OSMesa.
+  std::optional<Judgement> osmesa, osmesa_float;
+  std::optional<Disagreement> standard_to_float, draft_to_default;
+
+  // The promises our standard level breaks, in words; empty: none.
+  std::vector<std::string> broken() const;
+};
+
+std::string to_text(const std::vector<SceneVerdict>& verdicts);
+nlohmann::json to_json(const std::vector<SceneVerdict>& verdicts);
+
+}  // namespace halfspace::differential
