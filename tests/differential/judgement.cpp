@@ -25,9 +25,16 @@ bool is_right(const std::array<double, 4>& truth, const compare::Pixel& pixel) {
   return true;
 }
 
-void require_size(const Truth& truth, const compare::Image& image) {
-  if (image.width != truth.width || image.height != truth.height)
+void require_size(const Truth& truth, const Drawn& drawn) {
+  const compare::Image& image = drawn.picture;
+  if (image.width != truth.width || image.height != truth.height || drawn.owner.size() != truth.owner.size())
     throw std::runtime_error("a picture has another size than the true one");
+}
+
+Misplaced misplaced_at(const Recording& recording, int x, int y, Owner drawn, Owner truth) {
+  const double nearest = std::min(distance_to_edge(recording, drawn, x, y).value_or(1e300),
+                                  distance_to_edge(recording, truth, x, y).value_or(1e300));
+  return {x, y, drawn, truth, nearest};
 }
 
 void note(WorstColor& worst, int x, int y, double levels) {
@@ -48,10 +55,8 @@ void judge_color(const Truth& truth, const compare::Pixel& pixel, int x, int y, 
 
 }  // namespace
 
-Judgement judge(const Truth& truth, const Drawn& drawn) {
-  require_size(truth, drawn.picture);
-  if (!drawn.owner.empty() && drawn.owner.size() != truth.owner.size())
-    throw std::runtime_error("a picture of owners has another size than the true one");
+Judgement judge(const Recording& recording, const Truth& truth, const Drawn& drawn) {
+  require_size(truth, drawn);
   Judgement judgement;
   judgement.pixels = truth.owner.size();
   for (int y = 0; y < truth.height; ++y) {
@@ -59,9 +64,8 @@ Judgement judge(const Truth& truth, const Drawn& drawn) {
       const size_t at = truth.index(x, y);
       const bool interior = truth.interior(x, y);
       if (interior) ++judgement.interior_pixels;
-      if (!drawn.owner.empty() && drawn.owner[at] != truth.owner[at]) {
-        judgement.misplaced.push_back(
-            {x, y, drawn.owner[at], truth.owner[at], static_cast<double>(truth.edge_distance[at])});
+      if (drawn.owner[at] != truth.owner[at]) {
+        judgement.misplaced.push_back(misplaced_at(recording, x, y, drawn.owner[at], truth.owner[at]));
         continue;
       }
       judge_color(truth, pixel_at(drawn.picture, x, y), x, y, interior, judgement);
@@ -70,23 +74,30 @@ Judgement judge(const Truth& truth, const Drawn& drawn) {
   return judgement;
 }
 
-Disagreement between(const Truth& truth, const compare::Image& first, const compare::Image& second) {
-  require_size(truth, first);
-  require_size(truth, second);
+Disagreement between(const Truths& truths, const Drawn& ours, const Drawn& theirs) {
+  const Truth& truth = truths.snapped;
+  require_size(truth, ours);
+  require_size(truth, theirs);
   Disagreement result;
   for (int y = 0; y < truth.height; ++y) {
     for (int x = 0; x < truth.width; ++x) {
-      const compare::Pixel &a = pixel_at(first, x, y), &b = pixel_at(second, x, y);
+      const compare::Pixel &a = pixel_at(ours.picture, x, y), &b = pixel_at(theirs.picture, x, y);
       double levels = 0;
       for (size_t k = 0; k < 4; ++k) levels = std::max(levels, std::fabs(static_cast<double>(a[k] - b[k])));
       if (levels == 0) continue;
+      const size_t at = truth.index(x, y);
       ++result.differing;
       result.max = std::max(result.max, levels);
       if (truth.interior(x, y)) result.max_interior = std::max(result.max_interior, levels);
-      const std::array<double, 4>& color = truth.color[truth.index(x, y)];
-      const bool first_right = is_right(color, a), second_right = is_right(color, b);
-      if (first_right && !second_right) ++result.first_right;
-      if (second_right && !first_right) ++result.second_right;
+      if (ours.owner[at] != truth.owner[at] || theirs.owner[at] != truth.owner[at]) {
+        ++result.misplaced;
+      } else if (!is_right(truth.color[at], a)) {
+        ++result.ours_wrong;
+      } else if (is_right(truths.ideal.color[at], b)) {
+        ++result.corners;
+      } else {
+        ++result.theirs_wrong;
+      }
     }
   }
   return result;

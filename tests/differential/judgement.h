@@ -13,14 +13,14 @@ namespace halfspace::differential {
 // A picture as a renderer left it.
 struct Drawn {
   compare::Image picture;    // row 0 is the top row
-  std::vector<Owner> owner;  // row 0 is the bottom row; empty: nobody asked
+  std::vector<Owner> owner;  // row 0 is the bottom row
 };
 
 // A pixel that shows another primitive than it should. Coordinates as GL has them: y up.
 struct Misplaced {
   int x = 0, y = 0;
   Owner drawn = 0, truth = 0;
-  double edge_distance = 0;  // of the true owner's triangle, pixels
+  double edge_distance = 0;  // from the pixel's centre to the nearest edge of either, pixels
 };
 
 struct WorstColor {
@@ -40,16 +40,23 @@ struct Judgement {
   double wrong_percent() const { return 100.0 * double(wrong_pixels) / double(pixels); }
 };
 
-// Throws std::runtime_error when the sizes do not agree.
-Judgement judge(const Truth& truth, const Drawn& drawn);
+// Throws std::runtime_error when the sizes do not agree. `recording` is what `truth` was made from.
+Judgement judge(const Recording& recording, const Truth& truth, const Drawn& drawn);
 
-// Two pictures against each other, with the truth as arbiter of what is inside and who is right.
-struct Disagreement {
-  uint64_t differing = 0;            // pixels
-  uint64_t first_right = 0;          // ... where the first shows the true colour rounded, the second not
-  uint64_t second_right = 0;         // ... the other way round
-  double max = 0, max_interior = 0;  // levels, between the two
+// The truths a scene has by one filter.
+struct Truths {
+  Truth snapped, ideal;
 };
-Disagreement between(const Truth& truth, const compare::Image& first, const compare::Image& second);
+
+// Our picture against another renderer's, each differing pixel under the first reason that applies.
+struct Disagreement {
+  double max = 0, max_interior = 0;  // levels
+  uint64_t differing = 0;            // pixels
+  uint64_t misplaced = 0;            // ... of which one of the two shows another primitive than it should
+  uint64_t ours_wrong = 0;           // ... ours is not the truth of snapped corners, rounded
+  uint64_t corners = 0;              // ... the other's is the truth of ideal corners, rounded: both are right
+  uint64_t theirs_wrong = 0;         // ... the other's is neither truth
+};
+Disagreement between(const Truths& truths, const Drawn& ours, const Drawn& theirs);
 
 }  // namespace halfspace::differential

@@ -18,7 +18,6 @@ using compare::Renderer;
 struct Options {
   DrawJob job;
   std::string json;
-  Positions positions = Positions::snapped;
 };
 
 // Returns true to go on; otherwise the program ends with `exit_code`.
@@ -26,7 +25,6 @@ bool parse(int argc, char** argv, Options& options, int& exit_code) {
   CLI::App app(
       "Holds the eight scenes, as the libraries draw them, against a truth computed in long double.");
   std::string out = "out/truth";
-  bool ideal = false;
   app.add_option("--scene", options.job.scenes, "Only this scene, 1 to 8; may be given again")
       ->check(CLI::Range(1, ref_app::kSceneCount));
   app.add_option("--width", options.job.width, "Picture width")
@@ -37,7 +35,6 @@ bool parse(int argc, char** argv, Options& options, int& exit_code) {
       ->capture_default_str();
   app.add_option("--out", out, "Folder for the pictures")->capture_default_str();
   app.add_option("--json", options.json, "Write the figures to this file");
-  app.add_flag("--ideal", ideal, "Colours belong to the corners as they are before snapping to 1/256 px");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& refusal) {
@@ -46,7 +43,6 @@ bool parse(int argc, char** argv, Options& options, int& exit_code) {
   }
   if (options.job.scenes.empty()) options.job.scenes = {1, 2, 3, 4, 5, 6, 7, 8};
   options.job.out = std::filesystem::absolute(out);
-  if (ideal) options.positions = Positions::ideal;
   return true;
 }
 
@@ -69,23 +65,33 @@ AllDrawings draw_all(const DrawJob& job) {
   return all;
 }
 
-SceneVerdict verdict_on(int scene, const AllDrawings& all, const Options& options) {
+Truths truths_by(const Recording& recording, Filter filter) {
+  return {true_picture(recording, {Positions::snapped, filter}),
+          true_picture(recording, {Positions::ideal, filter})};
+}
+
+SceneVerdict verdict_on(int scene, const AllDrawings& all, const DrawJob& job) {
   const auto begin = std::chrono::steady_clock::now();
-  const Truth truth =
-      true_picture(record_scene(scene, options.job.width, options.job.height), options.positions);
+  const Recording recording = record_scene(scene, job.width, job.height);
+  const Truths exact = truths_by(recording, Filter::exact),
+               eight_bit = truths_by(recording, Filter::eight_bit);
   SceneVerdict verdict;
   verdict.scene = scene;
   verdict.truth_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  for (const Owner owner : truth.owner) verdict.owned += owner != 0;
-  const Drawn &ours = all.ours.scenes.at(scene), &draft = all.ours_draft.scenes.at(scene);
-  verdict.ours = judge(truth, ours);
-  verdict.ours_draft = judge(truth, draft);
+  const auto standing = [&](const Truths& truths, const Drawings& drawings) -> Standing {
+    const Drawn& drawn = drawings.scenes.at(scene);
+    return {judge(recording, truths.snapped, drawn), judge(recording, truths.ideal, drawn)};
+  };
+  const auto disagreement = [&](const Truths& truths, const Drawings& ours, const Drawings& theirs) {
+    return between(truths, ours.scenes.at(scene), theirs.scenes.at(scene));
+  };
+  verdict.ours = standing(exact, all.ours);
+  verdict.ours_draft = standing(eight_bit, all.ours_draft);
   if (all.osmesa && all.osmesa_float) {
-    const Drawn &osmesa = all.osmesa->scenes.at(scene), &filtered = all.osmesa_float->scenes.at(scene);
-    verdict.osmesa = judge(truth, osmesa);
-    verdict.osmesa_float = judge(truth, filtered);
-    verdict.standard_to_float = between(truth, ours.picture, filtered.picture);
-    verdict.draft_to_default = between(truth, draft.picture, osmesa.picture);
+    verdict.osmesa_float = standing(exact, *all.osmesa_float);
+    verdict.osmesa = standing(eight_bit, *all.osmesa);
+    verdict.standard_to_float = disagreement(exact, all.ours, *all.osmesa_float);
+    verdict.draft_to_default = disagreement(eight_bit, all.ours_draft, *all.osmesa);
   }
   return verdict;
 }
@@ -93,7 +99,7 @@ SceneVerdict verdict_on(int scene, const AllDrawings& all, const Options& option
 int run(const Options& options) {
   const AllDrawings all = draw_all(options.job);
   std::vector<SceneVerdict> verdicts;
-  for (const int scene : options.job.scenes) verdicts.push_back(verdict_on(scene, all, options));
+  for (const int scene : options.job.scenes) verdicts.push_back(verdict_on(scene, all, options.job));
   std::printf("%s", to_text(verdicts).c_str());
   if (!options.json.empty()) {
     std::ofstream file(options.json);

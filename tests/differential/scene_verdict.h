@@ -15,15 +15,20 @@ namespace halfspace::differential {
 constexpr double kMostInteriorLevels = 0.55;
 constexpr double kMostWrongPercent = 0.02;
 
+// One picture against both truths by the filter it is drawn with.
+struct Standing {
+  Judgement snapped, ideal;
+};
+
 struct SceneVerdict {
   int scene = 0;
-  double truth_seconds = 0;
-  uint64_t owned = 0;  // pixels that show some primitive
-  Judgement ours, ours_draft;
+  double truth_seconds = 0;  // spent on the true pictures
+  Standing ours, ours_draft;
   // Absent when there is no OSMesa.
-  std::optional<Judgement> osmesa, osmesa_float;
+  std::optional<Standing> osmesa, osmesa_float;
   std::optional<Disagreement> standard_to_float, draft_to_default;
 
+  uint64_t pixels() const { return ours.snapped.pixels; }
   // The promises our standard level breaks, in words; empty: none.
   std::vector<std::string> broken() const;
 };

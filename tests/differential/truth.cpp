@@ -29,8 +29,12 @@ Corner corner_of(const Recording::Draw& draw, uint32_t index) {
 }
 
 // A quad is the triangles 0 1 3 and 1 2 3, as the house splits it.
-constexpr uint32_t kQuadSplit[2][3] = {{0, 1, 3}, {1, 2, 3}};
-constexpr uint32_t kTriangleSplit[1][3] = {{0, 1, 2}};
+std::vector<std::array<Corner, 3>> triangles_of(const Recording::Draw& draw, size_t primitive) {
+  const PrimitiveCorners corners = primitive_at(draw.geometry, primitive);
+  const auto corner = [&](size_t i) { return corner_of(draw, corners.vertex[i]); };
+  if (corners.count == 3) return {{corner(0), corner(1), corner(2)}};
+  return {{corner(0), corner(1), corner(3)}, {corner(1), corner(2), corner(3)}};
+}
 
 std::vector<Piece> pieces_of(const Recording& recording, Positions positions) {
   std::vector<Piece> pieces;
@@ -39,18 +43,10 @@ std::vector<Piece> pieces_of(const Recording& recording, Positions positions) {
   for (const Recording::Draw& draw : recording.draws) {
     ++draw_number;
     for (size_t i = 0; i < primitive_count(draw.geometry); ++i) {
-      const PrimitiveCorners corners = primitive_at(draw.geometry, i);
       ++owner;
-      const auto add = [&](const uint32_t(&split)[3]) {
-        std::array<Corner, 3> c;
-        for (size_t k = 0; k < 3; ++k) c[k] = corner_of(draw, corners.vertex[split[k]]);
-        pieces.push_back({TrueTriangle(c, recording.width, recording.height, positions), owner, draw_number});
-      };
-      if (corners.count == 4) {
-        for (const auto& split : kQuadSplit) add(split);
-      } else {
-        add(kTriangleSplit[0]);
-      }
+      for (const std::array<Corner, 3>& corners : triangles_of(draw, i))
+        pieces.push_back(
+            {TrueTriangle(corners, recording.width, recording.height, positions), owner, draw_number});
     }
   }
   return pieces;
@@ -79,13 +75,12 @@ void over_bands(int height, const std::function<void(int, int)>& work) {
 
 class Painter {
  public:
-  Painter(const Recording& recording, Positions positions)
-      : recording_(recording), pieces_(pieces_of(recording, positions)) {
+  Painter(const Recording& recording, const Model& model)
+      : recording_(recording), filter_(model.filter), pieces_(pieces_of(recording, model.positions)) {
     const size_t pixels = static_cast<size_t>(recording.width) * static_cast<size_t>(recording.height);
     truth_.width = recording.width, truth_.height = recording.height;
     truth_.owner.resize(pixels);
     truth_.color.resize(pixels);
-    truth_.edge_distance.resize(pixels);
     truth_.draw.resize(pixels);
     seen_.assign(pixels, -1);
     const Real clear = clamped(recording.pass.clear_depth);
@@ -129,11 +124,10 @@ class Painter {
       const Recording::Draw& draw = recording_.draws[piece.draw - 1u];
       truth_.owner[at] = piece.owner;
       truth_.draw[at] = piece.draw;
-      truth_.edge_distance[at] = static_cast<float>(piece.triangle.distance_to_edge(x, y));
       const std::array<Real, 6> value = piece.triangle.attributes(x, y);
       color = {value[0], value[1], value[2], value[3]};
       if (const ref_app::Image* image = recording_.image_of(draw)) {
-        const std::array<Real, 4> texel = filtered(*image, value[4], value[5]);
+        const std::array<Real, 4> texel = sample(filter_, *image, value[4], value[5]);
         for (size_t i = 0; i < 4; ++i) color[i] *= texel[i];  // GL_MODULATE
       }
     }
@@ -143,6 +137,7 @@ class Painter {
   }
 
   const Recording& recording_;
+  const Filter filter_;
   const std::vector<Piece> pieces_;
   Truth truth_;
   std::vector<int64_t> seen_;  // the piece that shows; -1: none
@@ -161,29 +156,25 @@ bool Truth::interior(int x, int y) const {
   return true;
 }
 
-std::array<Real, 4> filtered(const ref_app::Image& image, Real s, Real t) {
-  const Real u = (s - std::floor(s)) * image.width - 0.5L, v = (t - std::floor(t)) * image.height - 0.5L;
-  const Real left = std::floor(u), low = std::floor(v);
-  const auto wrapped = [](Real i, int size) {
-    const int n = static_cast<int>(i);
-    return static_cast<size_t>(((n % size) + size) % size);
-  };
-  const size_t i[2] = {wrapped(left, image.width), wrapped(left + 1, image.width)};
-  const size_t j[2] = {wrapped(low, image.height), wrapped(low + 1, image.height)};
-  const Real a[2] = {1 - (u - left), u - left}, b[2] = {1 - (v - low), v - low};
-  std::array<Real, 4> sum{};
-  for (size_t row = 0; row < 2; ++row) {
-    for (size_t column = 0; column < 2; ++column) {
-      const uint8_t* texel = &image.rgba[4 * (j[row] * static_cast<size_t>(image.width) + i[column])];
-      for (size_t k = 0; k < 4; ++k) sum[k] += a[column] * b[row] * texel[k];
+std::optional<double> distance_to_edge(const Recording& recording, Owner owner, int x, int y) {
+  size_t before = 0;
+  for (const Recording::Draw& draw : recording.draws) {
+    const size_t count = primitive_count(draw.geometry);
+    if (owner > before && owner <= before + count) {
+      double nearest = 1e300;
+      for (const std::array<Corner, 3>& corners : triangles_of(draw, owner - before - 1)) {
+        const TrueTriangle triangle(corners, recording.width, recording.height, Positions::snapped);
+        nearest = std::min(nearest, triangle.distance_to_edge(x, y));
+      }
+      return nearest;
     }
+    before += count;
   }
-  for (Real& component : sum) component /= 255;
-  return sum;
+  return std::nullopt;
 }
 
-Truth true_picture(const Recording& recording, Positions positions) {
-  return Painter(recording, positions).paint();
+Truth true_picture(const Recording& recording, const Model& model) {
+  return Painter(recording, model).paint();
 }
 
 }  // namespace halfspace::differential

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tests/differential/recording.h"
+#include "tests/differential/true_filter.h"
 #include "tests/differential/true_triangle.h"
 
 namespace halfspace::differential {
@@ -18,9 +20,7 @@ struct Truth {
   int width = 0, height = 0;
   std::vector<Owner> owner;                  // row 0 is the bottom row
   std::vector<std::array<double, 4>> color;  // R, G, B, A in levels, 0 .. 255
-  // Distance of an owned pixel's centre to its triangle's nearest edge, in pixels; 0 for the background.
-  std::vector<float> edge_distance;
-  std::vector<uint16_t> draw;  // the owner's draw, counted from 1; 0 is the background
+  std::vector<uint16_t> draw;                // the owner's draw, counted from 1; 0 is the background
 
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
@@ -29,9 +29,15 @@ struct Truth {
   bool interior(int x, int y) const;
 };
 
-Truth true_picture(const Recording& recording, Positions positions = Positions::snapped);
+// What is held to be true. {snapped, exact} is what the numeric contract asks of the standard level.
+struct Model {
+  Positions positions = Positions::snapped;
+  Filter filter = Filter::exact;
+};
 
-// What textures with GL_LINEAR and GL_REPEAT give (spec 3.8.8, equation 3.24), each component in 0 .. 1.
-std::array<Real, 4> filtered(const ref_app::Image& image, Real s, Real t);
+Truth true_picture(const Recording& recording, const Model& model = {});
+
+// From the pixel's centre to the nearest edge of that primitive, in pixels; none for the background.
+std::optional<double> distance_to_edge(const Recording& recording, Owner owner, int x, int y);
 
 }  // namespace halfspace::differential
