@@ -38,6 +38,11 @@ int thread_count(const DeviceOptions& options) {
   return cores;
 }
 
+bool fuses(const DeviceOptions& options) {
+  const char* wish = std::getenv("HALFSPACE_FUSE");
+  return options.fuse && (wish == nullptr || std::strcmp(wish, "0") != 0);
+}
+
 bool same_layout(const VertexLayout& a, const VertexLayout& b) {
   return a.attribute_count == b.attribute_count && a.color == b.color && a.tex_coord == b.tex_coord &&
          a.projective == b.projective && a.constant_color == b.constant_color;
@@ -52,9 +57,10 @@ Rect draw_bounds(const DrawState& state, const Framebuffer::Impl& fb) {
 }  // namespace
 
 struct Device::Impl {
-  explicit Impl(const DeviceOptions& options) : pool(thread_count(options)) {}
+  explicit Impl(const DeviceOptions& options) : pool(thread_count(options)), fuse(fuses(options)) {}
 
   ThreadPool pool;
+  const bool fuse;
   Framebuffer::Impl* target = nullptr;
   DeviceStatistics statistics;
 
@@ -99,7 +105,7 @@ Segment& Device::Impl::open_segment() {
 const PipelineProgram& Device::Impl::program_for(const std::shared_ptr<const DrawState>& state,
                                                  const VertexLayout& layout) {
   if (programs.empty() || program_state != state || !same_layout(program_layout, layout)) {
-    programs.push_back(build_program(*state, layout, target->format));
+    programs.push_back(build_program(*state, layout, target->format, fuse));
     program_state = state;
     program_layout = layout;
   }

@@ -27,7 +27,8 @@ struct DeviceStatistics {
 };
 
 struct DeviceOptions {
-  int threads = 0;  // 0: HALFSPACE_THREADS, or else all cores
+  int threads = 0;   // 0: HALFSPACE_THREADS, or else all cores
+  bool fuse = true;  // false, or HALFSPACE_FUSE=0: every stage runs alone. The same bytes, slower
 };
 
 // Not thread-safe; one Device a context. Any call may throw std::bad_alloc; what was drawn before stands.

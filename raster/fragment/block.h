@@ -15,6 +15,7 @@ struct LevelRef {
   int32_t pitch;
   int32_t width_i, height_i;
   float width, height;
+  bool opaque;  // every texel, skirt included, has alpha 255
 };
 
 // What holds for all fragments of a draw; values only, the code is in the program's stage list.
@@ -25,6 +26,7 @@ struct FragmentParams {
   float magnify_below = 0;  // lambda at or under which mag is used: 0 or 0.5 (spec 3.8.9)
   int color_plane = 0;      // first of four planes
   int tex_plane = 0;        // s, t [, q]
+  bool rounds_to_bytes = true;  // the surface is rgba8
   float constant_color[4] = {255, 255, 255, 255};
   float env_color[4] = {};   // 0..255
   float alpha_reference = 0;  // 0..255
@@ -33,8 +35,8 @@ struct FragmentParams {
   uint32_t color_mask = ~0u;  // bytes to write, as packed
 };
 
-// Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded.
-enum Slot { kR, kG, kB, kA, kS, kT, kTexR, kTexG, kTexB, kTexA, kLambda, kSlotCount };
+// Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded; kOffset holds int32.
+enum Slot { kR, kG, kB, kA, kS, kT, kOffset, kTexR, kTexG, kTexB, kTexA, kLambda, kSlotCount };
 
 // Fragments of small triangles waiting to be shaded together. Filled by raster/tile/packing.inl.
 struct alignas(64) PixelQueue {

@@ -24,30 +24,34 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/levels.inl"
 #include "raster/fragment/stages/write.inl"
 
-enum SlotGroup : unsigned { kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8 };
+enum SlotGroup : unsigned { kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16 };
 
-struct SlotRange {
-  unsigned group;
-  int first, last;
-};
-inline constexpr SlotRange kSlotRanges[] = {
-    {kColor, kR, kA}, {kCoord, kS, kT}, {kTexel, kTexR, kTexA}, {kLevel, kLambda, kLambda}};
+template <unsigned kGroups, unsigned kGroup, int kFirst, int kCount>
+HWY_INLINE void LoadGroup(const BlockContext& c, int i, Lanes& v) {
+  if constexpr ((kGroups & kGroup) != 0)
+    for (int s = kFirst; s < kFirst + kCount; ++s) v.slot[s] = hn::Load(DF(), c.slot[s] + i);
+}
+template <unsigned kGroups>
+HWY_INLINE void LoadSlots(const BlockContext& c, int i, Lanes& v) {
+  LoadGroup<kGroups, kColor, kR, 4>(c, i, v);
+  LoadGroup<kGroups, kCoord, kS, 2>(c, i, v);
+  LoadGroup<kGroups, kPlace, kS, 3>(c, i, v);
+  LoadGroup<kGroups, kTexel, kTexR, 4>(c, i, v);
+  LoadGroup<kGroups, kLevel, kLambda, 1>(c, i, v);
+}
 
-template <class L, class Body, unsigned kReads, unsigned kWrites>
-void RunAlone(BlockContext& c) {
-  for (int i = 0; i < kBlockPixels; i += kLanes) {
-    if (!L::IsLive(c, i)) continue;
-    Lanes v;
-    v.live = L::LoadLive(c, i);
-    for (const SlotRange& range : kSlotRanges)
-      if ((kReads & range.group) != 0)
-        for (int s = range.first; s <= range.last; ++s) v.slot[s] = hn::Load(DF(), c.slot[s] + i);
-    Body::template Run<L>(c, i, v);
-    for (const SlotRange& range : kSlotRanges)
-      if ((kWrites & range.group) != 0)
-        for (int s = range.first; s <= range.last; ++s) hn::Store(v.slot[s], DF(), c.slot[s] + i);
-    if constexpr (Body::kKills) L::StoreLive(c, i, v.live);
-  }
+template <unsigned kGroups, unsigned kGroup, int kFirst, int kCount>
+HWY_INLINE void StoreGroup(const Lanes& v, int i, BlockContext& c) {
+  if constexpr ((kGroups & kGroup) != 0)
+    for (int s = kFirst; s < kFirst + kCount; ++s) hn::Store(v.slot[s], DF(), c.slot[s] + i);
+}
+template <unsigned kGroups>
+HWY_INLINE void StoreSlots(const Lanes& v, int i, BlockContext& c) {
+  StoreGroup<kGroups, kColor, kR, 4>(v, i, c);
+  StoreGroup<kGroups, kCoord, kS, 2>(v, i, c);
+  StoreGroup<kGroups, kPlace, kS, 3>(v, i, c);
+  StoreGroup<kGroups, kTexel, kTexR, 4>(v, i, c);
+  StoreGroup<kGroups, kLevel, kLambda, 1>(v, i, c);
 }
 
 template <StageId id>
@@ -55,6 +59,7 @@ struct BodyOf;
 #define STAGE(id, body, reads, writes)        \
   template <>                                 \
   struct BodyOf<StageId::id> {                \
+    static constexpr unsigned kReads = (reads), kWrites = (writes); \
     template <class T>                        \
     struct Strip;                             \
     template <class T>                        \
@@ -74,59 +79,70 @@ HWY_INLINE bool Step(const BlockContext& c, int i, Lanes& v) {
   return true;
 }
 
+// Slots a run of stages takes from the stages before it: what one of them reads and none before has written.
+template <StageId... ids>
+constexpr unsigned TakenSlots() {
+  unsigned taken = 0, written = 0;
+  ((taken |= BodyOf<ids>::kReads & ~written, written |= BodyOf<ids>::kWrites), ...);
+  return taken;
+}
+// Slots it leaves for those after it: all it wrote, but not what a reader of the same run has used up. Texels are used
+// up by the environment, coordinates by a lookup, the colour by the write that ends the list.
+template <StageId... ids>
+constexpr unsigned LeftSlots() {
+  unsigned left = 0;
+  ((left = (left & ~(BodyOf<ids>::kReads & ~unsigned{kColor})) | BodyOf<ids>::kWrites,
+    left = BodyOf<ids>::kWrites == kNone && BodyOf<ids>::kReads == kColor && !BodyOf<ids>::Type::kKills ? kNone : left),
+   ...);
+  return left;
+}
+
 template <class L, StageId... ids>
-void RunFused(BlockContext& c) {
+void RunStages(BlockContext& c) {
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
   for (int i = 0; i < kBlockPixels; i += kLanes) {
     if (!L::IsLive(c, i)) continue;
     Lanes v;
     v.live = L::LoadLive(c, i);
+    LoadSlots<TakenSlots<ids...>()>(c, i, v);
     (Step<L, ids>(c, i, v) && ...);
+    StoreSlots<LeftSlots<ids...>()>(v, i, c);
+    if constexpr (kKills && LeftSlots<ids...>() != kNone) L::StoreLive(c, i, v.live);
+    if constexpr (kKills && sizeof...(ids) == 1) L::StoreLive(c, i, v.live);
   }
 }
 
-// One row a stage, one row a fused list; `packed` is null where the lanes cannot be packed.
+// A kernel and the stages it runs; `packed` is null where the lanes cannot be packed.
 struct Entry {
   StageId ids[kMaxStages];
   int count;
-  BlockFunction block, packed;
+  KernelPair kernels;
 };
 
-template <StageId id, unsigned kReads, unsigned kWrites>
-constexpr Entry AloneEntry() {
-  using Body = typename BodyOf<id>::Type;
-  Entry entry{{id}, 1, &RunAlone<BlockLanes, Body, kReads, kWrites>, nullptr};
-  if constexpr (Body::kPacks) entry.packed = &RunAlone<PackedLanes, Body, kReads, kWrites>;
-  return entry;
-}
-
 template <StageId... ids>
-constexpr Entry FusedEntry() {
-  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), &RunFused<BlockLanes, ids...>, nullptr};
-  if constexpr ((BodyOf<ids>::Type::kPacks && ...)) entry.packed = &RunFused<PackedLanes, ids...>;
+constexpr Entry MakeEntry() {
+  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>, nullptr}};
+  if constexpr ((BodyOf<ids>::Type::kPacks && ...)) entry.kernels.packed = &RunStages<PackedLanes, ids...>;
   return entry;
 }
 
-KernelPair StageKernels(StageId id) {
-  static constexpr Entry kEntries[] = {
-#define STAGE(id, body, reads, writes) AloneEntry<StageId::id, (reads), (writes)>(),
+KernelPair FindKernels(const StageId* ids, int length) {
+  using enum StageId;
+  static constexpr Entry kAlone[] = {
+#define STAGE(id, body, reads, writes) MakeEntry<StageId::id>(),
 #include "raster/fragment/stages.def"
 #undef STAGE
   };
-  const Entry& entry = kEntries[static_cast<size_t>(id)];
-  return {entry.block, entry.packed};
-}
-
-KernelPair FusedKernels(const StageList& list) {
-  using enum StageId;
-  static constexpr Entry kEntries[] = {
-#define FUSED(...) FusedEntry<__VA_ARGS__>(),
+  static constexpr Entry kFused[] = {
+#define FUSED(...) MakeEntry<__VA_ARGS__>(),
 #include "raster/fragment/fused.def"
 #undef FUSED
   };
-  for (const Entry& entry : kEntries) {
-    bool same = entry.count == list.count;
-    for (int i = 0; same && i < list.count; ++i) same = entry.ids[i] == list.ids.data()[i];
-    if (same) return {entry.block, entry.packed};
+  if (length == 1) return kAlone[static_cast<size_t>(ids[0])].kernels;
+  for (const Entry& entry : kFused) {
+    bool same = entry.count == length;
+    for (int i = 0; same && i < length; ++i) same = entry.ids[i] == ids[i];
+    if (same) return entry.kernels;
   }
   return {nullptr, nullptr};
 }
@@ -138,13 +154,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace halfspace::raster {
 namespace {
-using StageSelector = KernelPair (*)(StageId);
-using FusedSelector = KernelPair (*)(const StageList&);
-StageSelector select_stage() { HALFSPACE_SELECT_FUNCTION(StageKernels) }
-FusedSelector select_fused() { HALFSPACE_SELECT_FUNCTION(FusedKernels) }
+using Finder = KernelPair (*)(const StageId*, int);
+Finder select_finder() { HALFSPACE_SELECT_FUNCTION(FindKernels) }
 }  // namespace
 
-KernelPair stage_kernels(StageId id) { return select_stage()(id); }
-KernelPair fused_kernels(const StageList& list) { return select_fused()(list); }
+KernelPair find_kernels(const StageId* ids, int count) { return select_finder()(ids, count); }
 }  // namespace halfspace::raster
 #endif

@@ -52,6 +52,10 @@ struct Lanes {
   VF slot[kSlotCount];
   MF live;
 };
+// g++ takes slots a run never touches for uninitialised reads in the scalar build.
+#if HWY_TARGET == HWY_SCALAR && defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 HWY_INLINE unsigned MaskBits(MF mask) {
 #if HWY_TARGET == HWY_SCALAR

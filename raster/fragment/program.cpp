@@ -56,13 +56,14 @@ bool needs_lambda(const TextureView& view) {
          view.sampler.mip == MipMode::nearest;
 }
 
-StageId sample_stage(const TextureView& view, Accuracy accuracy) {
+void add_lookup(const TextureView& view, Accuracy accuracy, StageList& list) {
   using enum StageId;
-  if (needs_lambda(view)) return sample_levels;
-  if (view.sampler.mag == Filter::nearest) return sample_nearest;
-  if (accuracy == Accuracy::draft) return sample_linear_draft;
+  if (needs_lambda(view)) return list.add(sample_levels);
+  if (view.sampler.mag == Filter::nearest) return list.add(sample_nearest);
+  if (accuracy == Accuracy::draft) return list.add(sample_linear_draft);
   const bool repeat = view.sampler.wrap_s == Wrap::repeat && view.sampler.wrap_t == Wrap::repeat;
-  return repeat ? sample_linear_repeat : sample_linear;
+  list.add(repeat ? footprint_repeat : footprint);
+  list.add(sample_linear);
 }
 
 StageId env_stage(EnvMode mode, BaseFormat format) {
@@ -88,7 +89,7 @@ void add_texture_stages(const DrawState& state, const VertexLayout& layout, unsi
   const TextureView& view = *state.texture.view;
   list.add(coord_stage(layout, variant));
   if (needs_lambda(view)) list.add(layout.projective ? StageId::lambda_projective : StageId::lambda);
-  list.add(sample_stage(view, state.accuracy));
+  add_lookup(view, state.accuracy, list);
   const bool white = layout.color < 0 && is_white(layout.constant_color);
   const EnvMode mode = white && state.texture.env == EnvMode::modulate ? EnvMode::replace : state.texture.env;
   const StageId env = env_stage(mode, view.base_format);
@@ -100,11 +101,11 @@ uint32_t byte_mask(const ColorMask& mask) {
   return (mask.r ? 0xffu : 0u) | (mask.g ? 0xff00u : 0u) | (mask.b ? 0xff0000u : 0u) | (mask.a ? 0xff000000u : 0u);
 }
 
-void scale_color(const Color& color, float* out) {
-  out[0] = color_level(color.r);
-  out[1] = color_level(color.g);
-  out[2] = color_level(color.b);
-  out[3] = color_level(color.a);
+void scale_color(const Color& color, bool to_bytes, float* out) {
+  out[0] = color_level(color.r, to_bytes);
+  out[1] = color_level(color.g, to_bytes);
+  out[2] = color_level(color.b, to_bytes);
+  out[3] = color_level(color.a, to_bytes);
 }
 
 void set_texture_params(const DrawState& state, FragmentParams& params) {
@@ -113,21 +114,22 @@ void set_texture_params(const DrawState& state, FragmentParams& params) {
   params.sampler = view.sampler;
   for (int i = 0; i < params.level_count; ++i) {
     const TextureLevel& level = *view.levels[static_cast<size_t>(i)];
-    params.levels[i] = {level.base,   level.pitch, level.width, level.height, static_cast<float>(level.width),
-                        static_cast<float>(level.height)};
+    params.levels[i] = {level.base, level.pitch, level.width, level.height, static_cast<float>(level.width),
+                        static_cast<float>(level.height), level.opaque};
   }
   // Spec 3.8.9: c = 0.5 if mag is LINEAR and min is NEAREST_MIPMAP_*, else 0.
   const bool half = view.sampler.mag == Filter::linear && view.sampler.min == Filter::nearest &&
                     view.sampler.mip != MipMode::none;
   params.magnify_below = half ? 0.5f : 0.0f;
-  scale_color(state.texture.env_color, params.env_color);
+  scale_color(state.texture.env_color, false, params.env_color);
 }
 
-FragmentParams make_params(const DrawState& state, const VertexLayout& layout) {
+FragmentParams make_params(const DrawState& state, const VertexLayout& layout, ColorFormat format) {
   FragmentParams params;
   params.color_plane = 2 + layout.color;
   params.tex_plane = 2 + layout.tex_coord;
-  scale_color(layout.constant_color, params.constant_color);
+  params.rounds_to_bytes = format == ColorFormat::rgba8;
+  scale_color(layout.constant_color, params.rounds_to_bytes, params.constant_color);
   params.alpha_func = state.alpha_test.func;
   params.alpha_reference = std::clamp(state.alpha_test.reference, 0.0f, 1.0f) * 255.0f;
   params.blend_src = state.blend.src;
@@ -137,27 +139,21 @@ FragmentParams make_params(const DrawState& state, const VertexLayout& layout) {
   return params;
 }
 
-BlockProgram make_block_program(const StageList& list) {
-  BlockProgram program;
-  program.fused = fused_kernels(list).block;
-  program.count = list.count;
-  for (int i = 0; i < list.count; ++i)
-    program.stages[static_cast<size_t>(i)] = stage_kernels(list.ids[static_cast<size_t>(i)]).block;
-  return program;
-}
-
-// The list without its depth test, on packed fragments. False if one of its stages needs whole blocks.
-bool make_packed_program(const StageList& list, bool depth_first, BlockProgram& program) {
-  StageList rest;
-  for (int i = depth_first ? 1 : 0; i < list.count; ++i) rest.add(list.ids[static_cast<size_t>(i)]);
-  program.fused = fused_kernels(rest).packed;
-  program.count = rest.count;
-  for (int i = 0; i < rest.count; ++i) {
-    const BlockFunction stage = stage_kernels(rest.ids[static_cast<size_t>(i)]).packed;
-    if (stage == nullptr) return false;
-    program.stages[static_cast<size_t>(i)] = stage;
+// Covers the list from the front with the longest kernels there are. False if some stage has none of the wanted kind.
+bool cover(const StageList& list, int first, bool fuse, BlockFunction KernelPair::*kind, BlockProgram& program) {
+  program.count = 0;
+  for (int at = first; at < list.count;) {
+    int length = fuse ? list.count - at : 1;
+    BlockFunction kernel = nullptr;
+    for (; length >= 1; --length) {
+      kernel = find_kernels(&list.ids[static_cast<size_t>(at)], length).*kind;
+      if (kernel != nullptr) break;
+    }
+    if (kernel == nullptr) return false;
+    program.kernels[static_cast<size_t>(program.count++)] = kernel;
+    at += length;
   }
-  return rest.count > 0;
+  return program.count > 0;
 }
 
 }  // namespace
@@ -186,18 +182,18 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
   return list;
 }
 
-PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format) {
+PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse) {
   PipelineProgram program;
-  program.params = make_params(state, layout);
+  program.params = make_params(state, layout, format);
   for (unsigned variant = 0; variant < kVariantCount; ++variant)
-    program.variants[variant] = make_block_program(list_stages(state, layout, format, variant));
+    cover(list_stages(state, layout, format, variant), 0, fuse, &KernelPair::block, program.variants[variant]);
   const bool depth = needs_depth(state.depth);
   program.depth = state.depth;
   program.depth.test = depth;
   program.packs = !needs_alpha_test(state.alpha_test);
   for (unsigned variant = 0; variant <= kAffine; ++variant)
-    program.packs = program.packs && make_packed_program(list_stages(state, layout, format, variant), depth,
-                                                         program.packed[variant]);
+    program.packs = program.packs && cover(list_stages(state, layout, format, variant), depth ? 1 : 0, fuse,
+                                           &KernelPair::packed, program.packed[variant]);
   const CompareFunc func = state.depth.func;
   const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
   program.writes_color = !state.color_mask.none();

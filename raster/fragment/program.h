@@ -26,17 +26,12 @@ struct StageList {
   bool operator==(const StageList&) const = default;
 };
 
-// One way to run a block: either a fused kernel, or the stages one after another.
+// A stage list as kernels to call one after another; each does one or several stages.
 struct BlockProgram {
-  BlockFunction fused = nullptr;
-  std::array<BlockFunction, kMaxStages> stages{};
+  std::array<BlockFunction, kMaxStages> kernels{};
   int count = 0;
   void run(BlockContext& block) const {
-    if (fused != nullptr) {
-      fused(block);
-      return;
-    }
-    for (int i = 0; i < count && block.live != 0; ++i) stages[static_cast<size_t>(i)](block);
+    for (int i = 0; i < count && block.live != 0; ++i) kernels[static_cast<size_t>(i)](block);
   }
 };
 
@@ -57,14 +52,14 @@ struct PipelineProgram {
 // Which stages the state calls for. `variant`: bits of Variant.
 StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorFormat format, unsigned variant);
 
-PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format);
+// fuse: false runs every stage alone.
+PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse);
 
-// Per-ISA code of a stage alone, or of a whole list fused (raster/fragment/fused.def; null if it is not there): on the
-// rows of a block, and on packed fragments (null where that cannot be).
+// Per-ISA code of `count` stages in a row: of one stage, or of a run listed in raster/fragment/fused.def, else null.
+// `block` works on the rows of a block, `packed` on packed fragments (null where that cannot be).
 struct KernelPair {
   BlockFunction block, packed;
 };
-KernelPair stage_kernels(StageId id);
-KernelPair fused_kernels(const StageList& list);
+KernelPair find_kernels(const StageId* ids, int count);
 
 }  // namespace halfspace::raster

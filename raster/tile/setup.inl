@@ -190,7 +190,7 @@ HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, con
                               : ref.v[ref.provoking];
   const VertexLayout& layout = draw.vertices.layout;
   const float* color = Attributes(Head(draw.vertices, layout.stride(), vertex)) + layout.color;
-  for (int k = 0; k < 4; ++k) out.flat[k][lane] = color_level(color[k]);
+  for (int k = 0; k < 4; ++k) out.flat[k][lane] = color_level(color[k], draw.program->params.rounds_to_bytes);
 }
 
 // Fills `out` for the primitives ids[0 .. count) of `segment`, all of one draw. `limit`: the draw's bounds relative to

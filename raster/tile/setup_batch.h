@@ -30,13 +30,13 @@ struct alignas(64) SetupBatch {
   uint8_t variant[kSetupLanes];
 };
 
-// 255 * c for a colour that is not interpolated, c in [0, 1]: the nearest float that rounds to the same byte as the
-// exact product. 0.7f is below 178.5 / 255, but 0.7f * 255.0f is 178.5f.
-inline float color_level(float c) {
+// 255 * c for a colour that is not interpolated, c in [0, 1]. `to_bytes`: the nearest float that rounds to the same byte
+// as the exact product. 0.7f is below 178.5 / 255, but 0.7f * 255.0f is 178.5f.
+inline float color_level(float c, bool to_bytes) {
   const double exact = static_cast<double>(c) * 255.0;
   const float level = static_cast<float>(exact);
   const auto byte = static_cast<int>(exact + 0.5);
-  if (static_cast<int>(level + 0.5f) == byte) return level;
+  if (!to_bytes || static_cast<int>(level + 0.5f) == byte) return level;
   return static_cast<float>(byte) + 0.49f;  // only ever rounded up onto the tie
 }
 

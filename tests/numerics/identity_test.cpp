@@ -49,6 +49,19 @@ TEST(Identity, EveryInstructionSetAndThreadCount) {
   }
 }
 
+// A fused kernel is made of the stages' own bodies: run one after another, they give the same bytes.
+TEST(Identity, StagesAloneAndFused) {
+  for (const Scene& scene : all_scenes()) {
+    const Picture fused = draw(scene, 1);
+    for (const std::string& isa : isa_levels()) {
+      const IsaScope scope(isa);
+      Canvas canvas(kSize, kSize, 1, ColorFormat::rgba8, false);
+      draw_scene(canvas, scene);
+      EXPECT_EQ(first_difference(fused, canvas.read()), "") << scene.name << " on " << isa << ", every stage alone";
+    }
+  }
+}
+
 // A scene shows something, and not one flat colour: otherwise equal bytes would prove nothing.
 TEST(Identity, ScenesAreNotEmpty) {
   for (const Scene& scene : all_scenes()) {

@@ -7,10 +7,11 @@ namespace halfspace::test {
 
 using namespace raster;
 
-Canvas::Canvas(int width, int height, int threads, ColorFormat format)
+Canvas::Canvas(int width, int height, int threads, ColorFormat format, bool fuse)
     : framebuffer_(std::make_unique<Framebuffer>(width, height, format)) {
   DeviceOptions options;
   options.threads = threads;
+  options.fuse = fuse;
   device_ = std::make_unique<Device>(options);
   device_->begin_pass(framebuffer_.get());
   clear();

@@ -31,7 +31,8 @@ struct Picture {
 
 class Canvas {
  public:
-  Canvas(int width, int height, int threads = 1, raster::ColorFormat format = raster::ColorFormat::rgba8);
+  Canvas(int width, int height, int threads = 1, raster::ColorFormat format = raster::ColorFormat::rgba8,
+         bool fuse = true);
 
   int width() const { return framebuffer_->width(); }
   int height() const { return framebuffer_->height(); }

@@ -73,8 +73,8 @@ struct SampleLevels {
   static HWY_INLINE void Nearest(const FragmentParams& p, const LaneLevels& l, Lanes& v) {
     const DF d;
     const DI di;
-    const VF u = hn::Floor(TexelCoord(v.slot[kS], hn::Load(d, l.width), p.sampler.wrap_s, 0.0f));
-    const VF t = hn::Floor(TexelCoord(v.slot[kT], hn::Load(d, l.height), p.sampler.wrap_t, 0.0f));
+    const VF u = NearestTexel(v.slot[kS], hn::Load(d, l.width), p.sampler.wrap_s);
+    const VF t = NearestTexel(v.slot[kT], hn::Load(d, l.height), p.sampler.wrap_t);
     alignas(64) int32_t x[8], y[8];
     alignas(64) uint32_t texels[8];
     hn::Store(TexelIndex(u, hn::Load(di, l.width_i), 0), di, x);
@@ -90,13 +90,11 @@ struct SampleLevels {
     const VF t = TexelCoord(v.slot[kT], hn::Load(d, l.height), p.sampler.wrap_t, 0.5f);
     const VF u0 = hn::Floor(u), t0 = hn::Floor(t);
     alignas(64) int32_t x[8], y[8];
-    alignas(64) float wu[8], wv[8], rgba[32];
     hn::Store(TexelIndex(u0, hn::Load(di, l.width_i), -1), di, x);
     hn::Store(TexelIndex(t0, hn::Load(di, l.height_i), -1), di, y);
-    hn::Store(hn::Sub(u, u0), d, wu);
-    hn::Store(hn::Sub(t, t0), d, wv);
-    for (int j = 0; j < kLanes; ++j)
-      Bilinear(l.texels[j] + (y[j] + 1) * l.pitch[j] + x[j] + 1, l.pitch[j], wu[j], wv[j], rgba + 4 * j);
-    hn::LoadInterleaved4(d, rgba, v.slot[kTexR], v.slot[kTexG], v.slot[kTexB], v.slot[kTexA]);
+    const uint32_t* low[8];
+    for (int j = 0; j < kLanes; ++j) low[j] = l.texels[j] + (y[j] + 1) * l.pitch[j] + x[j] + 1;
+    Bilinear([&](int j) HWY_ATTR { return low[j]; }, [&](int j) HWY_ATTR { return low[j] + l.pitch[j]; },
+             hn::Sub(u, u0), hn::Sub(t, t0), false, v);
   }
 };

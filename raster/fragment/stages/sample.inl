@@ -12,6 +12,15 @@ HWY_INLINE VF TexelCoord(VF s, VF size, Wrap wrap, float center) {
   return hn::Sub(u, hn::Set(d, center));
 }
 
+// The coordinate of a nearest lookup, snapped to 1/1024 texel: s = k / N is often a rounding below texel k's edge. With
+// REPEAT what snaps to the far edge is texel 0 again.
+HWY_INLINE VF NearestTexel(VF s, VF size, Wrap wrap) {
+  const DF d;
+  const VF scaled = hn::Mul(TexelCoord(s, size, wrap, 0.0f), hn::Set(d, 1024.0f));
+  const VF u = hn::Floor(hn::Mul(hn::Floor(hn::Add(scaled, hn::Set(d, 0.5f))), hn::Set(d, 1.0f / 1024.0f)));
+  return wrap == Wrap::repeat ? hn::IfThenZeroElse(hn::Ge(u, size), u) : u;
+}
+
 // Index in [lowest, size - 1] whatever u is: out-of-range and NaN lanes are dead, but their loads must be safe.
 HWY_INLINE VI TexelIndex(VF floor_u, VI size, int lowest) {
   const DI d;
@@ -29,69 +38,84 @@ HWY_INLINE void UnpackTexels(VU texel, Lanes& v) {
   v.slot[kTexA] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<24>(texel)));
 }
 
-#if HWY_MAX_BYTES >= 32 && HWY_TARGET != HWY_SCALAR
-// Two neighbouring texels, eight channels.
-HWY_INLINE hn::Vec<hn::FixedTag<float, 8>> TexelPair(const uint32_t* texel) {
-  const hn::FixedTag<uint8_t, 8> bytes;
-  const hn::FixedTag<int32_t, 8> ints;
-  const hn::FixedTag<float, 8> floats;
-  return hn::ConvertTo(floats, hn::PromoteTo(ints, hn::LoadU(bytes, reinterpret_cast<const uint8_t*>(texel))));
+// Two neighbouring texels of one row for each lane: `first` the left ones, `second` the right ones. By 64-bit loads; on
+// no x86 measured does the gather instruction win.
+struct TexelPairs {
+  VU first, second;
+};
+
+// texel(j): address of lane j's left texel.
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+HWY_INLINE __m128i LoadTwoPairs(const uint32_t* a, const uint32_t* b) {
+  const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(a));
+  return _mm_castps_si128(_mm_loadh_pi(_mm_castsi128_ps(low), reinterpret_cast<const __m64*>(b)));
+}
+template <class Address>
+HWY_INLINE TexelPairs LoadPairs(Address texel) {
+  const __m256 even = _mm256_castsi256_ps(
+      _mm256_inserti128_si256(_mm256_castsi128_si256(LoadTwoPairs(texel(0), texel(1))), LoadTwoPairs(texel(4), texel(5)), 1));
+  const __m256 odd = _mm256_castsi256_ps(
+      _mm256_inserti128_si256(_mm256_castsi128_si256(LoadTwoPairs(texel(2), texel(3))), LoadTwoPairs(texel(6), texel(7)), 1));
+  return {VU{_mm256_castps_si256(_mm256_shuffle_ps(even, odd, 0x88))},
+          VU{_mm256_castps_si256(_mm256_shuffle_ps(even, odd, 0xdd))}};
+}
+#elif HWY_TARGET == HWY_SSE4
+HWY_INLINE __m128 LoadTwoPairs(const uint32_t* a, const uint32_t* b) {
+  const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(a));
+  return _mm_loadh_pi(_mm_castsi128_ps(low), reinterpret_cast<const __m64*>(b));
+}
+template <class Address>
+HWY_INLINE TexelPairs LoadPairs(Address texel) {
+  const __m128 even = LoadTwoPairs(texel(0), texel(1)), odd = LoadTwoPairs(texel(2), texel(3));
+  return {VU{_mm_castps_si128(_mm_shuffle_ps(even, odd, 0x88))}, VU{_mm_castps_si128(_mm_shuffle_ps(even, odd, 0xdd))}};
+}
+#else
+template <class Address>
+HWY_INLINE TexelPairs LoadPairs(Address texel) {
+  alignas(64) uint32_t first[8], second[8];
+  for (int j = 0; j < kLanes; ++j) {
+    first[j] = texel(j)[0];
+    second[j] = texel(j)[1];
+  }
+  return {hn::Load(DU(), first), hn::Load(DU(), second)};
 }
 #endif
 
-// One bilinear lookup; texel pairs come by 64-bit loads. Rows first, then columns, both in float.
-HWY_INLINE void Bilinear(const uint32_t* texel, int pitch, float wu, float wv, float* rgba) {
-#if HWY_TARGET == HWY_SCALAR
-  for (int k = 0; k < 4; ++k) {
-    auto channel = [k](uint32_t t) { return static_cast<float>((t >> (8 * k)) & 255u); };
-    const float a = channel(texel[0]), b = channel(texel[1]);
-    const float left = a + (channel(texel[pitch]) - a) * wv;
-    const float right = b + (channel(texel[pitch + 1]) - b) * wv;
-    rgba[k] = left + (right - left) * wu;
-  }
-#else
-  const hn::FixedTag<float, 4> d4;
-#if HWY_MAX_BYTES >= 32
-  const hn::FixedTag<float, 8> d8;
-  const auto low = TexelPair(texel), high = TexelPair(texel + pitch);
-  const auto pair = hn::Add(low, hn::Mul(hn::Sub(high, low), hn::Set(d8, wv)));
-  const auto left = hn::LowerHalf(d4, pair), right = hn::UpperHalf(d4, pair);
-#else
-  const hn::FixedTag<uint8_t, 4> u4;
-  const hn::FixedTag<int32_t, 4> i4;
-  auto load = [&](const uint32_t* t) {
-    return hn::ConvertTo(d4, hn::PromoteTo(i4, hn::LoadU(u4, reinterpret_cast<const uint8_t*>(t))));
-  };
-  const auto wv4 = hn::Set(d4, wv);
-  const auto a = load(texel), b = load(texel + 1);
-  const auto left = hn::Add(a, hn::Mul(hn::Sub(load(texel + pitch), a), wv4));
-  const auto right = hn::Add(b, hn::Mul(hn::Sub(load(texel + pitch + 1), b), wv4));
-#endif
-  hn::Store(hn::Add(left, hn::Mul(hn::Sub(right, left), hn::Set(d4, wu))), d4, rgba);
-#endif
+template <int kChannel>
+HWY_INLINE VF Channel(VU texel) {
+  const DU d;
+  const VU byte = hn::Set(d, 255u);
+  const VU shifted = hn::ShiftRight<8 * kChannel>(texel);
+  return hn::ConvertTo(DF(), hn::BitCast(DI(), kChannel == 3 ? shifted : hn::And(shifted, byte)));
 }
 
-// All lanes of a group, two at a time: what is stored as 32 bytes is loaded as 32 bytes.
-HWY_INLINE void BilinearGroup(const LevelRef& level, const int32_t* offsets, const float* wu, const float* wv,
-                              float* rgba) {
-#if HWY_MAX_BYTES >= 32 && HWY_TARGET != HWY_SCALAR
-  const hn::FixedTag<float, 8> d8;
-  const hn::FixedTag<float, 4> d4;
-  for (int j = 0; j < kLanes; j += 2) {
-    const uint32_t *a = level.texels + offsets[j], *b = level.texels + offsets[j + 1];
-    const auto a_low = TexelPair(a), b_low = TexelPair(b);
-    const auto a_pair =
-        hn::Add(a_low, hn::Mul(hn::Sub(TexelPair(a + level.pitch), a_low), hn::Set(d8, wv[j])));
-    const auto b_pair =
-        hn::Add(b_low, hn::Mul(hn::Sub(TexelPair(b + level.pitch), b_low), hn::Set(d8, wv[j + 1])));
-    const auto left = hn::ConcatLowerLower(d8, b_pair, a_pair), right = hn::ConcatUpperUpper(d8, b_pair, a_pair);
-    const auto weight = hn::Combine(d8, hn::Set(d4, wu[j + 1]), hn::Set(d4, wu[j]));
-    hn::Store(hn::Add(left, hn::Mul(hn::Sub(right, left), weight)), d8, rgba + 4 * j);
-  }
-#else
-  for (int j = 0; j < kLanes; ++j) Bilinear(level.texels + offsets[j], level.pitch, wu[j], wv[j], rgba + 4 * j);
-#endif
+template <int kChannel>
+HWY_INLINE VF FilterChannel(const TexelPairs& low, const TexelPairs& high, VF wu, VF wv) {
+  const VF a = Channel<kChannel>(low.first), b = Channel<kChannel>(low.second);
+  const VF left = hn::Add(a, hn::Mul(hn::Sub(Channel<kChannel>(high.first), a), wv));
+  const VF right = hn::Add(b, hn::Mul(hn::Sub(Channel<kChannel>(high.second), b), wv));
+  return hn::Add(left, hn::Mul(hn::Sub(right, left), wu));
 }
+
+// Bilinear lookups for all lanes, in float: rows first, then columns. low(j), high(j): addresses of lane j's left texels
+// in the lower and the upper row. `opaque`: every alpha is 255, and interpolating 255 gives 255.
+template <class Low, class High>
+HWY_INLINE void Bilinear(Low low, High high, VF wu, VF wv, bool opaque, Lanes& v) {
+  const TexelPairs bottom = LoadPairs(low), top = LoadPairs(high);
+  v.slot[kTexR] = FilterChannel<0>(bottom, top, wu, wv);
+  v.slot[kTexG] = FilterChannel<1>(bottom, top, wu, wv);
+  v.slot[kTexB] = FilterChannel<2>(bottom, top, wu, wv);
+  v.slot[kTexA] = opaque ? hn::Set(DF(), 255.0f) : FilterChannel<3>(bottom, top, wu, wv);
+}
+
+// The lanes' offsets as scalars, by way of memory: taking them out of a vector would cost the units that filter.
+struct LaneOffsets {
+  alignas(64) int32_t at[8];
+  HWY_INLINE explicit LaneOffsets(VI v) {
+    hn::Store(v, DI(), at);
+    __asm__ volatile("" : : "r"(at) : "memory");
+  }
+};
 
 struct SampleNearest {
   static constexpr bool kKills = false, kPacks = true;
@@ -101,22 +125,23 @@ struct SampleNearest {
     const DI di;
     const LevelRef& level = c.params->levels[0];
     const Sampler& sampler = c.params->sampler;
-    const VF u = hn::Floor(TexelCoord(v.slot[kS], hn::Set(d, level.width), sampler.wrap_s, 0.0f));
-    const VF t = hn::Floor(TexelCoord(v.slot[kT], hn::Set(d, level.height), sampler.wrap_t, 0.0f));
+    const VF u = NearestTexel(v.slot[kS], hn::Set(d, level.width), sampler.wrap_s);
+    const VF t = NearestTexel(v.slot[kT], hn::Set(d, level.height), sampler.wrap_t);
     const VI x = TexelIndex(u, hn::Set(di, level.width_i), 0);
     const VI y = TexelIndex(t, hn::Set(di, level.height_i), 0);
     const VI offset =
         hn::Add(hn::Mul(hn::Add(y, hn::Set(di, 1)), hn::Set(di, level.pitch)), hn::Add(x, hn::Set(di, 1)));
-    alignas(64) int32_t offsets[8];
+    const LaneOffsets offsets(offset);
     alignas(64) uint32_t texels[8];
-    hn::Store(offset, di, offsets);
-    for (int j = 0; j < kLanes; ++j) texels[j] = level.texels[offsets[j]];
+    for (int j = 0; j < kLanes; ++j) texels[j] = level.texels[offsets.at[j]];
     UnpackTexels(hn::Load(DU(), texels), v);
   }
 };
 
+// Where a bilinear lookup on level 0 reads: slots s, t become the weights, and the offset of the lower left texel joins
+// them. A stage of its own, since a lookup's loads can only overlap with the next row's if little lies before them.
 template <bool kRepeat>
-struct SampleLinear {
+struct Footprint {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
@@ -131,21 +156,22 @@ struct SampleLinear {
     const VI x = TexelIndex(u0, hn::Set(di, level.width_i), -1);
     const VI y = TexelIndex(t0, hn::Set(di, level.height_i), -1);
     const VI one = hn::Set(di, 1);
-    alignas(64) int32_t offsets[8];
-    alignas(64) float wu[8], wv[8], rgba[32];
-    hn::Store(hn::Add(hn::Mul(hn::Add(y, one), hn::Set(di, level.pitch)), hn::Add(x, one)), di, offsets);
-    hn::Store(hn::Sub(u, u0), d, wu);
-    hn::Store(hn::Sub(t, t0), d, wv);
-    if (hn::AllTrue(d, v.live)) {
-      BilinearGroup(level, offsets, wu, wv, rgba);
-    } else {
-      for (int j = 0; j < 4 * kLanes; j += kLanes) hn::Store(hn::Zero(d), d, rgba + j);
-      for (unsigned todo = MaskBits(v.live); todo != 0; todo &= todo - 1) {
-        const int j = __builtin_ctz(todo);
-        Bilinear(level.texels + offsets[j], level.pitch, wu[j], wv[j], rgba + 4 * j);
-      }
-    }
-    hn::LoadInterleaved4(d, rgba, v.slot[kTexR], v.slot[kTexG], v.slot[kTexB], v.slot[kTexA]);
+    const VI offset = hn::Add(hn::Mul(hn::Add(y, one), hn::Set(di, level.pitch)), hn::Add(x, one));
+    v.slot[kS] = hn::Sub(u, u0);
+    v.slot[kT] = hn::Sub(t, t0);
+    v.slot[kOffset] = hn::BitCast(d, offset);
+  }
+};
+
+struct SampleLinear {
+  static constexpr bool kKills = false, kPacks = true;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+    const LevelRef& level = c.params->levels[0];
+    const LaneOffsets offsets(hn::BitCast(DI(), v.slot[kOffset]));
+    const uint32_t *lower = level.texels, *upper = lower + level.pitch;
+    Bilinear([&](int j) HWY_ATTR { return lower + offsets.at[j]; }, [&](int j) HWY_ATTR { return upper + offsets.at[j]; },
+             v.slot[kS], v.slot[kT], level.opaque, v);
   }
 };
 
