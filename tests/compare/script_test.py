@@ -23,14 +23,29 @@ STUBS = {
     "cmake": 'echo "cmake $*" >> "$CALLS/log"; preset=$2; mkdir -p "build/$preset"; '
              'touch "build/$preset/build.ninja"; for a in "$@"; do case $a in -D*) a=${a#-D}; '
              'echo "${a%%=*}:BOOL=${a#*=}" >> "build/$preset/CMakeCache.txt" ;; esac; done',
-    "ninja": 'case " $* " in *" -n "*) if [ -n "${FAKE_BUILT:-}" ]; then echo "ninja: no work to do."; fi ;; '
-             '*) echo "ninja $*" >> "$CALLS/log"; [ -z "${FAKE_NINJA_FAILS:-}" ] ;; esac',
+    "ninja": r"""
+case " $* " in
+  *" -t targets "*) printf 'some_test: phony\nlib/x.so: phony\nother_test: phony\n' ;;
+  *" -n "*) if [ -n "${FAKE_BUILT:-}" ]; then echo 'ninja: no work to do.'; fi ;;
+  *) echo "ninja $*" >> "$CALLS/log"; [ -z "${FAKE_NINJA_FAILS:-}" ] ;;
+esac""",
     "xvfb-run": 'echo "xvfb-run" >> "$CALLS/log"; while [ "$1" != ctest ]; do shift; done; exec "$@"',
-    "ctest": 'echo "ctest $*" >> "$CALLS/log"; while [ $# -gt 0 ]; do [ "$1" = --output-log ] && out=$2; '
-             '[ "$1" = --test-dir ] && dir=$2; shift; done; line="100% tests passed, 0 tests failed out of 10"; '
-             'case $dir in *"${FAKE_FAILING:-none}") line="80% tests passed, 2 tests failed out of 10" ;; esac; '
-             '[ "${FAKE_FAILING:-}" = crash ] || echo "$line" > "$out"; [ "$line" = "${line#8}" ]',
+    "ctest": r"""
+case " $* " in *" --show-only"*) printf "$FAKE_TESTS" "$2"; exit 0 ;; esac
+echo "ctest $*" >> "$CALLS/log"
+while [ $# -gt 0 ]; do
+  case $1 in --output-log) out=$2 ;; --test-dir) dir=$2 ;; esac
+  shift
+done
+[ "${FAKE_FAILING:-}" = crash ] && exit 139
+case $dir in
+  *"${FAKE_FAILING:-none}") echo '80% tests passed, 2 tests failed out of 10' > "$out"; exit 8 ;;
+  *) echo '100% tests passed, 0 tests failed out of 10' > "$out" ;;
+esac""",
 }
+# Two tests: a program that is not built yet, and a script that is handed a library; %s is the build tree.
+FAKE_TESTS = ('{"tests": [{"name": "unit.some_test"}, '
+              '{"name": "api.names", "command": ["/usr/bin/python3", "/elsewhere/names.py", "%s/lib/x.so"]}]}')
 INSTALLED = "installed alpha, \ninstalled other, beta (= 1.2), delta\ndeinstall gamma, \n"
 
 
@@ -62,7 +77,8 @@ class Script(unittest.TestCase):
         path.chmod(0o755)
 
     def run_script(self, *arguments, **environment):
-        env = {**os.environ, "PATH": f"{self.stubs}:/usr/bin:/bin", "CALLS": str(self.calls), **environment}
+        env = {**os.environ, "PATH": f"{self.stubs}:/usr/bin:/bin", "CALLS": str(self.calls),
+               "FAKE_TESTS": FAKE_TESTS, **environment}
         for name in ("DISPLAY", "HALFSPACE_WERROR"):
             if name not in environment:
                 env.pop(name, None)
@@ -119,15 +135,18 @@ class Script(unittest.TestCase):
     def test_all_tests_run_on_all_builds(self):
         done, calls = self.run_script("test", HALFSPACE_WERROR="1")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        tested = [call.split("/")[-1].split()[0] for call in calls if call.startswith("ctest")]
         self.assertEqual(len([call for call in calls if call == "xvfb-run"]), 4)
-        directories = [call.split("--test-dir ")[1].split(" --output")[0] for call in calls if call.startswith("ctest")]
-        self.assertEqual([pathlib.Path(d).name for d in directories], ["release", "clang", "asan-ubsan", "tsan"], tested)
+        directories = [call.split("--test-dir ")[1].split(" --output")[0]
+                       for call in calls if call.startswith("ctest")]
+        self.assertEqual([pathlib.Path(d).name for d in directories], ["release", "clang", "asan-ubsan", "tsan"])
         for call in calls:
             if call.startswith("cmake"):
                 self.assertIn("HALFSPACE_BUILD_TESTS=ON", call)
                 self.assertIn("HALFSPACE_WERROR=ON", call)
         self.assertEqual(done.stdout.splitlines()[-1], "100% tests passed, 0 tests failed out of 40")
+        built = [call.split("/build/")[1].split() for call in calls if call.startswith("ninja")]
+        self.assertEqual(built, [["release"]] + [[preset, "lib/x.so", "some_test"]
+                                                 for preset in ("clang", "asan-ubsan", "tsan")])
 
     def test_a_failure_anywhere_fails(self):
         for failing, line in (("tsan", "95% tests passed, 2 tests failed out of 40"),
