@@ -1,4 +1,6 @@
 // The stages' code, compiled once per ISA level: each alone, and fused.
+#include <type_traits>
+
 #include "raster/fragment/program.h"
 #include "raster/isa.h"
 
@@ -71,10 +73,21 @@ struct BodyOf;
 #include "raster/fragment/stages.def"
 #undef STAGE
 
+// What each stage of a run works out once a block.
+template <class L, StageId id>
+struct OnceOf {
+  typename BodyOf<id>::Type::template Once<L> once;
+  HWY_INLINE explicit OnceOf(const BlockContext& c) : once(c) {}
+};
+template <class L, StageId... ids>
+struct OnceAll : OnceOf<L, ids>... {
+  HWY_INLINE explicit OnceAll(const BlockContext& c) : OnceOf<L, ids>(c)... {}
+};
+
 // Runs one stage on a group; false when no lane is left.
 template <class L, StageId id>
-HWY_INLINE bool Step(const BlockContext& c, int i, Lanes& v) {
-  BodyOf<id>::Type::template Run<L>(c, i, v);
+HWY_INLINE bool Step(const BlockContext& c, const OnceOf<L, id>& once, int i, Lanes& v) {
+  BodyOf<id>::Type::template Run<L>(c, once.once, i, v);
   if constexpr (BodyOf<id>::Type::kKills) return !hn::AllFalse(DF(), v.live);
   return true;
 }
@@ -100,16 +113,19 @@ constexpr unsigned LeftSlots() {
 template <class L, StageId... ids>
 void RunStages(BlockContext& c) {
   constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  const OnceAll<L, ids...> once(c);
+  uint64_t live = L::Live(c), left = 0;  // locals: through memory, each row would wait for the one before
   for (int i = 0; i < kBlockPixels; i += kLanes) {
-    if (!L::IsLive(c, i)) continue;
+    const uint64_t group = live >> i & kGroupBits;
+    if (group == 0) continue;
     Lanes v;
-    v.live = L::LoadLive(c, i);
+    v.live = MaskFromBits(group);
     LoadSlots<TakenSlots<ids...>()>(c, i, v);
-    (Step<L, ids>(c, i, v) && ...);
+    (Step<L, ids>(c, once, i, v) && ...);
     StoreSlots<LeftSlots<ids...>()>(v, i, c);
-    if constexpr (kKills && LeftSlots<ids...>() != kNone) L::StoreLive(c, i, v.live);
-    if constexpr (kKills && sizeof...(ids) == 1) L::StoreLive(c, i, v.live);
+    if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << i;
   }
+  if constexpr (kKills) c.live = left;
 }
 
 // A kernel and the stages it runs; `packed` is null where the lanes cannot be packed.

@@ -57,13 +57,24 @@ struct Lanes {
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
+inline constexpr uint64_t kGroupBits = (uint64_t{1} << kLanes) - 1;
+
+HWY_INLINE MF MaskFromBits(uint64_t group) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::MaskFromVec(hn::BitCast(DF(), hn::Set(DU(), group != 0 ? ~0u : 0u)));
+#else
+  const auto bits = static_cast<uint8_t>(group);
+  return hn::LoadMaskBits(DF(), &bits);
+#endif
+}
+
 HWY_INLINE unsigned MaskBits(MF mask) {
 #if HWY_TARGET == HWY_SCALAR
   return hn::AllFalse(DF(), mask) ? 0u : 1u;
 #else
   uint8_t bits[8] = {};
   hn::StoreMaskBits(DF(), mask, bits);
-  return bits[0] & ((1u << kLanes) - 1);
+  return bits[0] & static_cast<unsigned>(kGroupBits);
 #endif
 }
 
@@ -79,46 +90,65 @@ HWY_INLINE auto Compare(V a, V b) {
   if constexpr (F == CompareFunc::never) return hn::Ne(a, a);
 }
 
-// (f0 + dfdy * dy) + dfdx * dx, always in this order, in double. Rows of a block only.
-HWY_INLINE VD PlaneAtDouble(const BlockContext& c, int plane, int i) {
-  const int k = c.lane;
-  const SetupBatch& s = *c.setup;
-  const double row = s.f0[plane][k] + s.dfdy[plane][k] * (c.dy + i / kBlockSize);
-  VD v;
-  for (int p = 0; p < kDoubleParts; ++p) {
-    const auto dx = hn::Add(hn::Iota(DD(), 0), hn::Set(DD(), c.dx + (i % kBlockSize + p * kDoubleLanes)));
-    v.part[p] = hn::Add(hn::Set(DD(), row), hn::Mul(hn::Set(DD(), s.dfdx[plane][k]), dx));
+// --- Planes at the pixels of a block: (f0 + dfdy * dy) + dfdx * dx, always in this order. What is the same for all rows
+// is worked out once a block; the compiler could not tell, since rows write to memory.
+
+inline constexpr int kGroupsPerRow = kBlockSize / kLanes;
+
+struct BlockPlane {
+  VF across[kGroupsPerRow];  // dfdx * dx
+  float f0, dfdy, dy;
+  HWY_INLINE BlockPlane(const BlockContext& c, int plane) {
+    const SetupBatch& s = *c.setup;
+    const DF d;
+    f0 = s.f0_f[plane][c.lane];
+    dfdy = s.dfdy_f[plane][c.lane];
+    dy = static_cast<float>(c.dy);
+    const VF dfdx = hn::Set(d, s.dfdx_f[plane][c.lane]);
+    for (int g = 0; g < kGroupsPerRow; ++g)
+      across[g] = hn::Mul(dfdx, hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<float>(c.dx) + static_cast<float>(g * kLanes))));
   }
-  return v;
-}
+  HWY_INLINE VF At(int i) const {
+    const float row = f0 + dfdy * (dy + static_cast<float>(i / kBlockSize));
+    return hn::Add(hn::Set(DF(), row), across[i % kBlockSize / kLanes]);
+  }
+};
+
+struct BlockPlaneDouble {
+  VD across[kGroupsPerRow];
+  double f0, dfdy, dy;
+  HWY_INLINE BlockPlaneDouble(const BlockContext& c, int plane) {
+    const SetupBatch& s = *c.setup;
+    const DD d;
+    f0 = s.f0[plane][c.lane];
+    dfdy = s.dfdy[plane][c.lane];
+    dy = c.dy;
+    const auto dfdx = hn::Set(d, s.dfdx[plane][c.lane]);
+    for (int g = 0; g < kGroupsPerRow; ++g)
+      for (int p = 0; p < kDoubleParts; ++p)
+        across[g].part[p] = hn::Mul(dfdx, hn::Add(hn::Iota(d, 0), hn::Set(d, c.dx + (g * kLanes + p * kDoubleLanes))));
+  }
+  HWY_INLINE VD At(int i) const {
+    const double row = f0 + dfdy * (dy + i / kBlockSize);
+    VD v;
+    for (int p = 0; p < kDoubleParts; ++p)
+      v.part[p] = hn::Add(hn::Set(DD(), row), across[i % kBlockSize / kLanes].part[p]);
+    return v;
+  }
+};
+
+// For stages with nothing to work out once a block.
+struct NothingOnce {
+  HWY_INLINE explicit NothingOnce(const BlockContext&) {}
+};
 
 // --- Where a stage's lanes come from. Both give the same bits for the same pixel.
 
 // Rows of one block, one primitive: planes are evaluated here, memory is contiguous.
 struct BlockLanes {
-  static HWY_INLINE bool IsLive(const BlockContext& c, int i) {
-    return ((c.live >> i) & ((uint64_t{1} << kLanes) - 1)) != 0;
-  }
-  static HWY_INLINE MF LoadLive(const BlockContext& c, int i) {
-    const auto bits = static_cast<uint8_t>(c.live >> i);
-#if HWY_TARGET == HWY_SCALAR
-    return hn::MaskFromVec(hn::BitCast(DF(), hn::Set(DU(), (bits & 1) != 0 ? ~0u : 0u)));
-#else
-    return hn::LoadMaskBits(DF(), &bits);
-#endif
-  }
-  static HWY_INLINE void StoreLive(BlockContext& c, int i, MF mask) {
-    const uint64_t field = ((uint64_t{1} << kLanes) - 1) << i;
-    c.live = (c.live & ~field) | (uint64_t{MaskBits(mask)} << i);
-  }
-  static HWY_INLINE VF Plane(const BlockContext& c, int plane, int i) {
-    const int k = c.lane;
-    const SetupBatch& s = *c.setup;
-    const float dy = static_cast<float>(c.dy) + static_cast<float>(i / kBlockSize);
-    const float row = s.f0_f[plane][k] + s.dfdy_f[plane][k] * dy;
-    const VF dx = hn::Add(hn::Iota(DF(), 0), hn::Set(DF(), static_cast<float>(c.dx) + static_cast<float>(i % kBlockSize)));
-    return hn::Add(hn::Set(DF(), row), hn::Mul(hn::Set(DF(), s.dfdx_f[plane][k]), dx));
-  }
+  static HWY_INLINE uint64_t Live(const BlockContext& c) { return c.live; }
+  using Plane = BlockPlane;
+  using PlaneDouble = BlockPlaneDouble;
   static HWY_INLINE VF FlatColor(const BlockContext& c, int channel, int) {
     return hn::Set(DF(), c.setup->flat[channel][c.lane]);
   }
@@ -129,17 +159,21 @@ struct BlockLanes {
   }
 };
 
+// Values that were evaluated when a fragment came in.
+struct PackedPlane {
+  const float* values;
+  HWY_INLINE PackedPlane(const BlockContext& c, int plane) : values(c.queue->plane[plane]) {}
+  HWY_INLINE VF At(int i) const { return hn::Load(DF(), values + i); }
+};
+
 // Fragments of many small triangles, packed after their depth test; plane values were evaluated when they came in.
 // Stored in the order of the triangles, so where two fragments share a pixel the later one stays.
 struct PackedLanes {
-  static HWY_INLINE bool IsLive(const BlockContext& c, int i) { return i < c.queue->count; }
-  static HWY_INLINE MF LoadLive(const BlockContext&, int) { return hn::Eq(hn::Zero(DF()), hn::Zero(DF())); }
-  static HWY_INLINE void StoreLive(BlockContext&, int, MF) {}
-  static HWY_INLINE VF Plane(const BlockContext& c, int plane, int i) {
-    return hn::Load(DF(), c.queue->plane[plane] + i);
-  }
+  static HWY_INLINE uint64_t Live(const BlockContext& c) { return ~uint64_t{0} >> (kBlockPixels - c.queue->count); }
+  using Plane = PackedPlane;
+  using PlaneDouble = BlockPlaneDouble;  // never used: what needs doubles is not packed
   static HWY_INLINE VF FlatColor(const BlockContext& c, int channel, int i) {
-    return Plane(c, c.params->color_plane + channel, i);
+    return PackedPlane(c, c.params->color_plane + channel).At(i);
   }
   static HWY_INLINE void StoreRgba8(const BlockContext& c, int i, VI packed, MF) {
     alignas(64) int32_t pixels[8];

@@ -60,13 +60,14 @@ HWY_INLINE void UpdateDepthMax(TileContext& t, int lane, int block, bool full) {
   }
 }
 
-void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
+// Makes t.block stand for the pixels `mask` of a block; false if none of them can be seen.
+bool BeginBlock(TileContext& t, int lane, int block, uint64_t mask) {
   BlockContext& c = t.block;
   const SetupBatch& s = t.setup;
   const PipelineProgram& program = *t.program;
   c.dx = s.anchor_x[lane] + (block % 8) * kBlockSize;
   c.dy = s.anchor_y[lane] + (block / 8) * kBlockSize;
-  if (program.rejects_deeper && BlockIsHidden(t, lane, block)) return;
+  if (program.rejects_deeper && BlockIsHidden(t, lane, block)) return false;
   const uint64_t bit = uint64_t{1} << block;
   if (program.reads_depth) {
     if ((t.state->depth_is_clear & bit) != 0) t.framebuffer->settle_depth(t.tile, bit);
@@ -84,7 +85,12 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   const auto fragments = static_cast<uint64_t>(__builtin_popcountll(mask));
   t.statistics->fragments += fragments;
   if ((s.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
-  program.variants[s.variant[lane]].run(c);
+  return true;
+}
+
+void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
+  if (!BeginBlock(t, lane, block, mask)) return;
+  t.program->variants[t.setup.variant[lane]].run(t.block);
   UpdateDepthMax(t, lane, block, mask == ~uint64_t{0});
 }
 
@@ -126,9 +132,9 @@ HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
     for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) t.state->depth_max[__builtin_ctzll(todo)] = kDepthMax;
 }
 
-// Fragments at the pixels of `mask`, in the window whose first pixel is (x, y), join those that wait. `blocks`: the
-// blocks these pixels lie in.
-void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint64_t blocks) {
+// Fragments at the pixels of `mask`, in the window whose first pixel is (x, y), join those that wait; `depth`: after
+// they pass the depth test there, or null if that is done.
+void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint32_t* depth) {
   const SetupBatch& s = t.setup;
   Packer& packer = t.packer;
   const int count = __builtin_popcountll(mask);
@@ -136,12 +142,8 @@ void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint64_t 
     FlushPacked(t);
     packer.variant = s.variant[lane];
   }
-  PrepareWindow(t, blocks);
-  packer.blocks |= blocks;
-  t.statistics->fragments += static_cast<uint64_t>(count);
   const int first = packer.queue.count;
-  packer.Append(s, lane, x, y, mask, *t.program, t.plane_count,
-                t.program->reads_depth ? t.framebuffer->depth_tile(t.tile) : nullptr);
+  packer.Append(s, lane, x, y, mask, *t.program, t.plane_count, depth);
   if (t.flat_color) packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
 }
 
@@ -150,19 +152,31 @@ void PackTriangle(TileContext& t, int lane) {
   const int x = s.min_x[lane], y = s.min_y[lane];
   const TriangleWalk walk(s, lane);
   const uint64_t mask = walk.Window(x, y, s.max_x[lane] - x + 1, s.max_y[lane] - y + 1);
-  if (mask != 0) PackWindow(t, lane, x, y, mask, WindowBlocks(x, y, s.max_x[lane], s.max_y[lane]));
+  if (mask == 0) return;
+  const uint64_t blocks = WindowBlocks(x, y, s.max_x[lane], s.max_y[lane]);
+  PrepareWindow(t, blocks);
+  t.statistics->fragments += static_cast<uint64_t>(__builtin_popcountll(mask));
+  PackWindow(t, lane, x, y, mask, t.program->reads_depth ? t.framebuffer->depth_tile(t.tile) : nullptr);
+  t.packer.blocks |= blocks;
 }
 
-// A block of a larger triangle: packed if only a part of it is covered, else row by row. What waits for the block's
-// pixels was drawn before and is stored before.
+// A block of a larger triangle. What waits for the block's pixels was drawn before and is stored before.
 void WalkBlock(TileContext& t, int lane, int block, uint64_t mask, bool packs) {
   const uint64_t bit = uint64_t{1} << block;
-  if (packs && __builtin_popcountll(mask) <= kPackAtMost) {
-    PackWindow(t, lane, block % 8 * kBlockSize, block / 8 * kBlockSize, mask, bit);
-    return;
+  const bool pack = packs && __builtin_popcountll(mask) <= kPackAtMost;
+  if (!pack && (t.packer.blocks & bit) != 0) FlushPacked(t);
+  if (!BeginBlock(t, lane, block, mask)) return;
+  if (!pack) {
+    t.program->variants[t.setup.variant[lane]].run(t.block);
+  } else {
+    // The depth test goes by rows, the rest packed.
+    if (t.program->reads_depth) t.program->depth_kernel(t.block);
+    if (t.block.live != 0) {
+      PackWindow(t, lane, block % 8 * kBlockSize, block / 8 * kBlockSize, t.block.live, nullptr);
+      t.packer.blocks |= bit;
+    }
   }
-  if ((t.packer.blocks & bit) != 0) FlushPacked(t);
-  RunBlock(t, lane, block, mask);
+  UpdateDepthMax(t, lane, block, mask == ~uint64_t{0});
 }
 
 void WalkTriangle(TileContext& t, int lane, bool packs) {

@@ -43,35 +43,42 @@ struct TriangleWalk {
   }
 
  private:
+  // A vector takes a part of a row, a row, or two rows.
   HWY_INLINE uint64_t Rows(const int32_t e[3], int first, int last) const {
-    using D = hn::CappedTag<int32_t, 8>;
+    using D = hn::CappedTag<int32_t, 16>;
     const D d;
     constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
+    constexpr int kRowsAtOnce = kWidth > kBlockSize ? kWidth / kBlockSize : 1;
     uint64_t mask = 0;
     for (int column = 0; column < kBlockSize; column += kWidth) {
-      const auto lanes = hn::Add(hn::Iota(d, 0), hn::Set(d, column));
-      auto v0 = hn::Add(hn::Set(d, e[0] + first * step_y[0]), hn::Mul(lanes, hn::Set(d, step_x[0])));
-      auto v1 = hn::Add(hn::Set(d, e[1] + first * step_y[1]), hn::Mul(lanes, hn::Set(d, step_x[1])));
-      auto v2 = hn::Add(hn::Set(d, e[2] + first * step_y[2]), hn::Mul(lanes, hn::Set(d, step_x[2])));
-      for (int row = first; row <= last; ++row) {
-        const auto inside = hn::Not(hn::Lt(hn::Or(hn::Or(v0, v1), v2), hn::Zero(d)));
-        mask |= uint64_t{Bits(d, inside)} << (row * kBlockSize + column);
-        v0 = hn::Add(v0, hn::Set(d, step_y[0]));
-        v1 = hn::Add(v1, hn::Set(d, step_y[1]));
-        v2 = hn::Add(v2, hn::Set(d, step_y[2]));
+      const auto lane = hn::Iota(d, 0);
+      const auto x = hn::Add(hn::And(lane, hn::Set(d, kBlockSize - 1)), hn::Set(d, column));
+      const auto y = hn::Add(hn::ShiftRight<3>(lane), hn::Set(d, first));
+      hn::Vec<D> v[3], step[3];
+      for (int k = 0; k < 3; ++k) {
+        const auto across = hn::Mul(x, hn::Set(d, step_x[k])), up = hn::Mul(y, hn::Set(d, step_y[k]));
+        v[k] = hn::Add(hn::Set(d, e[k]), hn::Add(across, up));
+        step[k] = hn::Set(d, kRowsAtOnce * step_y[k]);
+      }
+      for (int row = first; row <= last; row += kRowsAtOnce) {
+        mask |= InsideBits(d, hn::Or(hn::Or(v[0], v[1]), v[2])) << (row * kBlockSize + column);
+        for (int k = 0; k < 3; ++k) v[k] = hn::Add(v[k], step[k]);
       }
     }
     return mask;
   }
 
+  // One bit a lane: set where the value is not negative.
   template <class D>
-  static HWY_INLINE unsigned Bits(D d, hn::Mask<D> mask) {
+  static HWY_INLINE uint64_t InsideBits(D d, hn::Vec<D> value) {
 #if HWY_TARGET == HWY_SCALAR
-    return hn::AllFalse(d, mask) ? 0u : 1u;
+    (void)d;
+    return hn::GetLane(value) < 0 ? 0u : 1u;
 #else
     uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, mask, bits);
-    return bits[0] & ((1u << hn::MaxLanes(d)) - 1);
+    hn::StoreMaskBits(d, hn::Lt(value, hn::Zero(d)), bits);
+    const auto outside = static_cast<uint64_t>(bits[0] | bits[1] << 8);
+    return ~outside & ((uint64_t{1} << hn::MaxLanes(d)) - 1);
 #endif
   }
 };

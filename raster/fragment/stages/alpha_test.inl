@@ -3,7 +3,9 @@
 struct AlphaTest {
   static constexpr bool kKills = true, kPacks = false;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     const VF reference = hn::Set(DF(), c.params->alpha_reference);
     v.live = hn::And(v.live, Passes(c.params->alpha_func, v.slot[kA], reference));
   }

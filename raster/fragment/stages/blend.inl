@@ -25,7 +25,9 @@ HWY_INLINE VI RoundToByte(VF v) { return TruncateInRange(hn::Add(v, hn::Set(DF()
 struct BlendRgba8 {
   static constexpr bool kKills = false, kPacks = false;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
     const DI d;
     const VI old = hn::BitCast(d, hn::Load(DU(), c.color + i));
     const VI byte = hn::Set(d, 255);
@@ -46,7 +48,9 @@ struct BlendRgba8 {
 struct BlendRgba32f {
   static constexpr bool kKills = false, kPacks = false;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
     const DF d;
     const VF one = hn::Set(d, 255.0f);
     VF s[4], dst[4];

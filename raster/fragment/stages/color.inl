@@ -3,7 +3,9 @@
 struct ColorConstant {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     for (int k = 0; k < 4; ++k) v.slot[kR + k] = hn::Set(DF(), c.params->constant_color[k]);
   }
 };
@@ -11,7 +13,9 @@ struct ColorConstant {
 struct ColorFlat {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
     for (int k = 0; k < 4; ++k) v.slot[kR + k] = L::FlatColor(c, k, i);
   }
 };
@@ -20,25 +24,44 @@ struct ColorFlat {
 template <unsigned kVariant>
 struct ColorSmooth {
   static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
-  static HWY_INLINE VF Clamp(VF x) {
-    return hn::Min(hn::Max(x, hn::Zero(DF())), hn::Set(DF(), 255.0f));
-  }
+  static constexpr bool kDivides = (kVariant & kAffine) == 0;
+
+  template <class Plane>
+  struct Planes {
+    Plane inv_w, r, g, b, a;
+    HWY_INLINE explicit Planes(const BlockContext& c)
+        : inv_w(c, 1),
+          r(c, c.params->color_plane),
+          g(c, c.params->color_plane + 1),
+          b(c, c.params->color_plane + 2),
+          a(c, c.params->color_plane + 3) {}
+  };
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
-    const int first = c.params->color_plane;
-    if constexpr (kVariant == kAffine) {
-      for (int k = 0; k < 4; ++k) v.slot[kR + k] = Clamp(L::Plane(c, first + k, i));
-    } else if constexpr (kVariant == 0) {
-      const VF w = hn::Div(hn::Set(DF(), 1.0f), L::Plane(c, 1, i));
-      for (int k = 0; k < 4; ++k) v.slot[kR + k] = Clamp(hn::Mul(L::Plane(c, first + k, i), w));
+  using Once = Planes<std::conditional_t<kPacks, typename L::Plane, typename L::PlaneDouble>>;
+
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
+    if constexpr (kPacks) {
+      const VF w = kDivides ? hn::Div(hn::Set(DF(), 1.0f), once.inv_w.At(i)) : hn::Zero(DF());
+      v.slot[kR] = InFloat(once.r.At(i), w);
+      v.slot[kG] = InFloat(once.g.At(i), w);
+      v.slot[kB] = InFloat(once.b.At(i), w);
+      v.slot[kA] = InFloat(once.a.At(i), w);
     } else {
-      const VD inv_w = PlaneAtDouble(c, 1, i);
-      for (int k = 0; k < 4; ++k) {
-        VD value = PlaneAtDouble(c, first + k, i);
-        if constexpr ((kVariant & kAffine) == 0)
-          for (int p = 0; p < kDoubleParts; ++p) value.part[p] = hn::Div(value.part[p], inv_w.part[p]);
-        v.slot[kR + k] = Clamp(DemoteGroup(DF(), value));
-      }
+      const VD inv_w = once.inv_w.At(i);
+      v.slot[kR] = InDouble(once.r.At(i), inv_w);
+      v.slot[kG] = InDouble(once.g.At(i), inv_w);
+      v.slot[kB] = InDouble(once.b.At(i), inv_w);
+      v.slot[kA] = InDouble(once.a.At(i), inv_w);
     }
+  }
+
+ private:
+  static HWY_INLINE VF Clamp(VF x) { return hn::Min(hn::Max(x, hn::Zero(DF())), hn::Set(DF(), 255.0f)); }
+  static HWY_INLINE VF InFloat(VF value, VF w) { return Clamp(kDivides ? hn::Mul(value, w) : value); }
+  static HWY_INLINE VF InDouble(VD value, const VD& inv_w) {
+    if constexpr (kDivides)
+      for (int p = 0; p < kDoubleParts; ++p) value.part[p] = hn::Div(value.part[p], inv_w.part[p]);
+    return Clamp(DemoteGroup(DF(), value));
   }
 };

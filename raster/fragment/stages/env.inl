@@ -8,7 +8,9 @@ template <EnvMode kMode, bool kRgb, bool kAlpha>
 struct Env {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     for (int k = 0; k < 3; ++k) {
       VF& f = v.slot[kR + k];
       const VF t = v.slot[kTexR + k];
@@ -30,7 +32,9 @@ struct Env {
 struct EnvBlendIntensity {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     for (int k = 0; k < 4; ++k)
       v.slot[kR + k] = Mix(v.slot[kR + k], hn::Set(DF(), c.params->env_color[k]), v.slot[kTexR + k]);
   }

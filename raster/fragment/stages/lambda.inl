@@ -24,20 +24,28 @@ struct Lambda {
   static constexpr bool kKills = false, kPacks = false;
   // d(S/Q)/dx = (dS/dx - s * dQ/dx) / Q, in texels of level 0; in double since the difference may cancel.
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
+  struct Once {
+    BlockPlaneDouble divisor, s, t;
+    HWY_INLINE explicit Once(const BlockContext& c)
+        : divisor(c, kProjective ? c.params->tex_plane + 2 : 1),
+          s(c, c.params->tex_plane),
+          t(c, c.params->tex_plane + 1) {}
+  };
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
     const DF d;
     const SetupBatch& setup = *c.setup;
     const int k = c.lane;
     const int first = c.params->tex_plane;
     const int divisor = kProjective ? first + 2 : 1;
     const bool affine = !kProjective && (setup.variant[k] & kAffine) != 0;
-    const VD q = PlaneAtDouble(c, divisor, i);
+    const VD q = once.divisor.At(i);
     const double scale[2] = {static_cast<double>(c.params->levels[0].width),
                              static_cast<double>(c.params->levels[0].height)};
     VD x2, y2;  // squared lengths of the gradients along x and y
     for (int p = 0; p < kDoubleParts; ++p) x2.part[p] = y2.part[p] = hn::Zero(DD());
     for (int axis = 0; axis < 2; ++axis) {
-      const VD numerator = PlaneAtDouble(c, first + axis, i);
+      const VD numerator = axis == 0 ? once.s.At(i) : once.t.At(i);
       const auto size = hn::Set(DD(), scale[axis]);
       for (int p = 0; p < kDoubleParts; ++p) {
         auto gx = hn::Set(DD(), setup.dfdx[first + axis][k]);

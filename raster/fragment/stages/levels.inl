@@ -25,7 +25,9 @@ struct SampleLevels {
   static constexpr bool kKills = false, kPacks = false;
 
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     const DF d;
     const DI di;
     const FragmentParams& p = *c.params;

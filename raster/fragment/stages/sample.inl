@@ -120,7 +120,9 @@ struct LaneOffsets {
 struct SampleNearest {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     const DF d;
     const DI di;
     const LevelRef& level = c.params->levels[0];
@@ -144,7 +146,9 @@ template <bool kRepeat>
 struct Footprint {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     const DF d;
     const DI di;
     const LevelRef& level = c.params->levels[0];
@@ -166,7 +170,9 @@ struct Footprint {
 struct SampleLinear {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     const LevelRef& level = c.params->levels[0];
     const LaneOffsets offsets(hn::BitCast(DI(), v.slot[kOffset]));
     const uint32_t *lower = level.texels, *upper = lower + level.pitch;
@@ -180,7 +186,9 @@ struct SampleLinear {
 struct SampleLinearDraft {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     const DF d;
     const DI di;
     const LevelRef& level = c.params->levels[0];

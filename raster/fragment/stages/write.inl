@@ -4,7 +4,9 @@ template <bool kMasked>
 struct WriteRgba8 {
   static constexpr bool kKills = false, kPacks = !kMasked;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
     VI packed = hn::Or(hn::Or(RoundToByte(v.slot[kR]), hn::ShiftLeft<8>(RoundToByte(v.slot[kG]))),
                        hn::Or(hn::ShiftLeft<16>(RoundToByte(v.slot[kB])), hn::ShiftLeft<24>(RoundToByte(v.slot[kA]))));
     if constexpr (kMasked) {
@@ -20,7 +22,9 @@ struct WriteRgba8 {
 struct WriteRgba32f {
   static constexpr bool kKills = false, kPacks = false;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, int i, Lanes& v) {
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
     const DF d;
     for (int k = 0; k < 4; ++k) {
       if (((c.params->color_mask >> (8 * k)) & 255u) == 0) continue;
