@@ -75,7 +75,7 @@ Judgement judge(const Recording& recording, const Truth& truth, const Drawn& dra
 }
 
 Disagreement between(const Truths& truths, const Drawn& ours, const Drawn& theirs) {
-  const Truth& truth = truths.snapped;
+  const Truth& truth = truths.contract();
   require_size(truth, ours);
   require_size(truth, theirs);
   Disagreement result;
@@ -93,7 +93,7 @@ Disagreement between(const Truths& truths, const Drawn& ours, const Drawn& their
         ++result.misplaced;
       } else if (!is_right(truth.color[at], a)) {
         ++result.ours_wrong;
-      } else if (is_right(truths.ideal.color[at], b)) {
+      } else if (is_right(truths.snapped.color[at], b) || is_right(truths.ideal.color[at], b)) {
         ++result.corners;
       } else {
         ++result.theirs_wrong;

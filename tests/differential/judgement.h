@@ -46,6 +46,7 @@ Judgement judge(const Recording& recording, const Truth& truth, const Drawn& dra
 // The truths a scene has by one filter.
 struct Truths {
   Truth snapped, ideal;
+  const Truth& contract() const { return kContract == Positions::snapped ? snapped : ideal; }
 };
 
 // Our picture against another renderer's, each differing pixel under the first reason that applies.
@@ -53,9 +54,10 @@ struct Disagreement {
   double max = 0, max_interior = 0;  // levels
   uint64_t differing = 0;            // pixels
   uint64_t misplaced = 0;            // ... of which one of the two shows another primitive than it should
-  uint64_t ours_wrong = 0;           // ... ours is not the truth of snapped corners, rounded
-  uint64_t corners = 0;              // ... the other's is the truth of ideal corners, rounded: both are right
-  uint64_t theirs_wrong = 0;         // ... the other's is neither truth
+  uint64_t ours_wrong = 0;           // ... ours is not the truth by contract, rounded
+  uint64_t corners =
+      0;  // ... the other's is the truth by snapped or by ideal corners, rounded: both are right
+  uint64_t theirs_wrong = 0;  // ... the other's is neither truth
 };
 Disagreement between(const Truths& truths, const Drawn& ours, const Drawn& theirs);
 

@@ -107,7 +107,7 @@ nlohmann::json to_json(const SceneVerdict& v) {
 
 std::vector<std::string> SceneVerdict::broken() const {
   std::vector<std::string> broken;
-  const Judgement& standard = ours.snapped;
+  const Judgement& standard = ours.contract();
   const WorstColor& inside = standard.worst_interior;
   if (!(inside.levels <= kMostInteriorLevels))
     broken.push_back(format("scene %d: pixel (%d, %d) is %.4f levels off the truth, %.2f at most", scene,
@@ -115,7 +115,7 @@ std::vector<std::string> SceneVerdict::broken() const {
   if (!(standard.wrong_percent() <= kMostWrongPercent))
     broken.push_back(format("scene %d: %.4f %% of the pixels are not the rounded truth, %.2f %% at most",
                             scene, standard.wrong_percent(), kMostWrongPercent));
-  for (const Judgement* judgement : {&standard, &ours_draft.snapped}) {
+  for (const Judgement* judgement : {&standard, &ours_draft.contract()}) {
     if (!judgement->misplaced.empty())
       broken.push_back(
           format("scene %d: %zu pixels show what they should not; ", scene, judgement->misplaced.size()) +
@@ -126,11 +126,10 @@ std::vector<std::string> SceneVerdict::broken() const {
 
 std::string to_text(const std::vector<SceneVerdict>& verdicts) {
   std::string text =
-      "Against the truth. Snapped: what a triangle carries belongs to its corners where they were snapped "
-      "to\n"
-      "1/256 px, as our numeric contract says. Ideal: to its corners as they are; llvmpipe does so. The "
-      "draft\n"
-      "level and OSMesa's default are held to the truth by their own 8-bit filter.\n\n";
+      "Against the truth. Snapped: what a triangle carries belongs to its corners where they were\n"
+      "snapped to 1/256 px. Ideal: to its corners as they are; llvmpipe does so. ";
+  text += kContract == Positions::snapped ? "We promise snapped.\n" : "We promise ideal.\n";
+  text += "The draft level and OSMesa's default are held to the truth by their own 8-bit filter.\n\n";
   text += format("%-27s %38s   %28s\n", "", "snapped", "ideal");
   text += format("%-5s %-21s %10s %8s %8s %9s   %10s %8s %8s\n", "scene", "drawn by", "wrong px", "inside",
                  "max", "misplaced", "wrong px", "inside", "max");
@@ -142,9 +141,8 @@ std::string to_text(const std::vector<SceneVerdict>& verdicts) {
   }
   if (!verdicts.empty() && verdicts[0].standard_to_float) {
     text +=
-        "\nAgainst each other, and why pixels differ: one shows another primitive than it should; both are "
-        "right,\n"
-        "the one by snapped, the other by ideal corners; OSMesa is neither truth; we are not the truth.\n\n";
+        "\nAgainst each other, and why pixels differ: one shows another primitive than it should; both are\n"
+        "right, by corners of their own; OSMesa is neither truth; we are not what we promise.\n\n";
     text += format("%-5s %-31s %10s %7s %7s %10s %8s %8s %8s\n", "scene", "", "differing", "inside", "max",
                    "misplaced", "corners", "OSMesa", "we");
   }
@@ -155,9 +153,9 @@ std::string to_text(const std::vector<SceneVerdict>& verdicts) {
   }
   std::string pixels;
   for (const SceneVerdict& v : verdicts) {
-    pixels += named("Halfspace", v.scene, v.ours.snapped) +
-              named("Halfspace, draft", v.scene, v.ours_draft.snapped);
-    if (v.osmesa) pixels += named("OSMesa", v.scene, v.osmesa->snapped);
+    pixels += named("Halfspace", v.scene, v.ours.contract()) +
+              named("Halfspace, draft", v.scene, v.ours_draft.contract());
+    if (v.osmesa) pixels += named("OSMesa", v.scene, v.osmesa->contract());
   }
   return text + (pixels.empty() ? "" : "\nMisplaced pixels, y up:\n" + pixels);
 }

@@ -18,6 +18,7 @@ constexpr double kMostWrongPercent = 0.02;
 // One picture against both truths by the filter it is drawn with.
 struct Standing {
   Judgement snapped, ideal;
+  const Judgement& contract() const { return kContract == Positions::snapped ? snapped : ideal; }
 };
 
 struct SceneVerdict {

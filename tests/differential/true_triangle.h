@@ -36,6 +36,9 @@ enum class Positions : uint8_t {
   ideal,    // ... to the corners where they would be without snapping
 };
 
+// What our renderer promises; the pictures of others are held to either.
+inline constexpr Positions kContract = Positions::snapped;
+
 class TrueTriangle {
  public:
   TrueTriangle(const std::array<Corner, 3>& corners, int width, int height, Positions positions);

@@ -29,9 +29,9 @@ struct Truth {
   bool interior(int x, int y) const;
 };
 
-// What is held to be true. {snapped, exact} is what the numeric contract asks of the standard level.
+// What is held to be true. The default is what the numeric contract asks of the standard level.
 struct Model {
-  Positions positions = Positions::snapped;
+  Positions positions = kContract;
   Filter filter = Filter::exact;
 };
 
