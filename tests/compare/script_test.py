@@ -27,7 +27,7 @@ STUBS = {
 case " $* " in
   *" -t targets "*) printf 'some_test: phony\nlib/x.so: phony\nother_test: phony\n' ;;
   *" -n "*) if [ -n "${FAKE_BUILT:-}" ]; then echo 'ninja: no work to do.'; fi ;;
-  *) echo "ninja $*" >> "$CALLS/log"; [ -z "${FAKE_NINJA_FAILS:-}" ] ;;
+  *) echo "ninja $*" >> "$CALLS/log"; case $* in *"${FAKE_NINJA_FAILS:-none}"*) exit 1 ;; esac ;;
 esac""",
     "xvfb-run": 'echo "xvfb-run" >> "$CALLS/log"; while [ "$1" != ctest ]; do shift; done; exec "$@"',
     "ctest": r"""
@@ -129,7 +129,7 @@ class Script(unittest.TestCase):
 
     def test_a_broken_build_stops(self):
         self.program("echo started")
-        done, _ = self.run_script("compare", FAKE_NINJA_FAILS="1")
+        done, _ = self.run_script("compare", FAKE_NINJA_FAILS="release")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
 
     def test_all_tests_run_on_all_builds(self):
@@ -154,6 +154,13 @@ class Script(unittest.TestCase):
             done, _ = self.run_script("test", FAKE_FAILING=failing)
             self.assertEqual(done.returncode, 1)
             self.assertEqual(done.stdout.splitlines()[-1], line)
+
+    def test_a_build_that_fails_does_not_hide_the_others(self):
+        done, calls = self.run_script("test", FAKE_NINJA_FAILS="clang")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(len([call for call in calls if call.startswith("ctest")]), 3)
+        self.assertIn("does not build", done.stdout)
+        self.assertEqual(done.stdout.splitlines()[-1], "96% tests passed, 1 tests failed out of 31")
 
     def test_labels_and_ctest_arguments(self):
         done, calls = self.run_script("test", "unit", "api", "-R", "a b", DISPLAY=":9")
