@@ -107,20 +107,22 @@ nlohmann::json to_json(const SceneVerdict& v) {
 
 std::vector<std::string> SceneVerdict::broken() const {
   std::vector<std::string> broken;
-  const Judgement& standard = ours.contract();
-  const WorstColor& inside = standard.worst_interior;
+  const WorstColor& inside = ours.contract().worst_interior;
   if (!(inside.levels <= kMostInteriorLevels))
     broken.push_back(format("scene %d: pixel (%d, %d) is %.4f levels off the truth, %.2f at most", scene,
                             inside.x, inside.y, inside.levels, kMostInteriorLevels));
-  if (!(standard.wrong_percent() <= kMostWrongPercent))
-    broken.push_back(format("scene %d: %.4f %% of the pixels are not the rounded truth, %.2f %% at most",
-                            scene, standard.wrong_percent(), kMostWrongPercent));
-  for (const Judgement* judgement : {&standard, &ours_draft.contract()}) {
-    if (!judgement->misplaced.empty())
+  const auto ask = [&](const char* level, const Judgement& judgement, double most) {
+    if (!(judgement.wrong_percent() <= most))
       broken.push_back(
-          format("scene %d: %zu pixels show what they should not; ", scene, judgement->misplaced.size()) +
-          in_words(judgement->misplaced[0]));
-  }
+          format("scene %d, %s: %.4f %% of the pixels are not the rounded truth, %.2f %% at most", scene,
+                 level, judgement.wrong_percent(), most));
+    if (!judgement.misplaced.empty())
+      broken.push_back(format("scene %d, %s: %zu pixels show what they should not; ", scene, level,
+                              judgement.misplaced.size()) +
+                       in_words(judgement.misplaced[0]));
+  };
+  ask("standard", ours.contract(), kMostWrongPercent);
+  ask("draft", ours_draft.contract(), kMostDraftWrongPercent);
   return broken;
 }
 
@@ -169,6 +171,8 @@ nlohmann::json to_json(const std::vector<SceneVerdict>& verdicts) {
   }
   return {{"most_interior_levels", kMostInteriorLevels},
           {"most_wrong_percent", kMostWrongPercent},
+          {"most_draft_wrong_percent", kMostDraftWrongPercent},
+          {"contract", kContract == Positions::snapped ? "snapped" : "ideal"},
           {"good", good},
           {"scenes", scenes}};
 }

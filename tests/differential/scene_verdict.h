@@ -14,6 +14,8 @@ namespace halfspace::differential {
 // What the standard level promises against the truth.
 constexpr double kMostInteriorLevels = 0.55;
 constexpr double kMostWrongPercent = 0.02;
+// And the draft level against the truth by the 8-bit filter.
+constexpr double kMostDraftWrongPercent = 0.1;
 
 // One picture against both truths by the filter it is drawn with.
 struct Standing {
@@ -30,7 +32,7 @@ struct SceneVerdict {
   std::optional<Disagreement> standard_to_float, draft_to_default;
 
   uint64_t pixels() const { return ours.snapped.pixels; }
-  // The promises our standard level breaks, in words; empty: none.
+  // The promises we break, in words; empty: none.
   std::vector<std::string> broken() const;
 };
 

@@ -184,17 +184,20 @@ class Judge : public testing::Test {
     recording_ = recording_of(triangle(corner));
     truth_ = true_picture(recording_);
     drawn_ = perfect(truth_);
+    perfect_ = judge(recording_, truth_, drawn_);
   }
   SceneVerdict verdict(const Judgement& judgement) const {
     SceneVerdict verdict;
     verdict.scene = 1;
-    verdict.ours.snapped = judgement;
+    verdict.ours = {judgement, judgement};
+    verdict.ours_draft = {perfect_, perfect_};
     return verdict;
   }
 
   Recording recording_;
   Truth truth_;
   Drawn drawn_;
+  Judgement perfect_;
 };
 
 TEST_F(Judge, FindsNothingInAPerfectPicture) {
@@ -220,6 +223,16 @@ TEST_F(Judge, FindsOneLevelInOneByte) {
   EXPECT_GE(judgement.worst_interior.levels, 1);
   // One pixel of so few is more than 0.02 % as well.
   EXPECT_EQ(verdict(judgement).broken().size(), 2u);
+  SceneVerdict draft = verdict(perfect_);
+  EXPECT_TRUE(draft.broken().empty());
+  // Of the draft level, 0.1 % may be wrong.
+  Judgement worse = judgement;
+  worse.wrong_pixels = worse.pixels / 1000;
+  draft.ours_draft = {worse, worse};
+  EXPECT_TRUE(draft.broken().empty());
+  ++worse.wrong_pixels;
+  draft.ours_draft = {worse, worse};
+  EXPECT_EQ(draft.broken().size(), 1u);
 }
 
 TEST_F(Judge, FindsAPixelOfTheWrongOwner) {
