@@ -21,10 +21,11 @@ namespace halfspace::raster {
 namespace {
 
 // Work kept back before it is executed, so that memory stays bounded whatever a frame draws.
-constexpr size_t kMaxPendingBytes = size_t{6} << 20;    // shaded vertices
-constexpr size_t kMaxPendingPrimitives = size_t{1} << 18;
-constexpr uint32_t kParallelPrimitives = 8192;  // a draw of fewer is not split over threads
-constexpr uint32_t kVerticesPerTask = 4096;
+constexpr size_t kMaxPendingBytes = size_t{6} << 20;  // shaded vertices
+constexpr size_t kMaxPendingPrimitives = size_t{1} << 17;
+constexpr uint32_t kPartPrimitives = 16384;   // a larger draw is taken in parts
+constexpr uint32_t kParallelPrimitives = 4096;  // a part of fewer is not split over threads
+constexpr uint32_t kVerticesPerTask = 2048;
 
 int thread_count(const DeviceOptions& options) {
   if (options.threads > 0) return std::min(options.threads, 256);
@@ -46,6 +47,30 @@ bool fuses(const DeviceOptions& options) {
 bool same_layout(const VertexLayout& a, const VertexLayout& b) {
   return a.attribute_count == b.attribute_count && a.color == b.color && a.tex_coord == b.tex_coord &&
          a.projective == b.projective && a.constant_color == b.constant_color;
+}
+
+// Vertices a primitive of its own has, or 0 for modes whose primitives share vertices.
+uint32_t vertices_of_each(Primitive mode) {
+  switch (mode) {
+    case Primitive::points: return 1;
+    case Primitive::lines: return 2;
+    case Primitive::triangles: return 3;
+    case Primitive::quads: return 4;
+    default: return 0;
+  }
+}
+
+void skip_vertices(AttributeStream& stream, uint32_t count) {
+  if (stream.data != nullptr) stream.data = static_cast<const std::byte*>(stream.data) + count * stream.stride;
+}
+
+// The vertices [lowest, highest] of a batch, as one of their own.
+VertexBatch part_of(VertexBatch batch, uint32_t lowest, uint32_t highest) {
+  skip_vertices(batch.position, lowest);
+  skip_vertices(batch.color, lowest);
+  skip_vertices(batch.tex_coord, lowest);
+  batch.count = highest - lowest + 1;
+  return batch;
 }
 
 Rect draw_bounds(const DrawState& state, const Framebuffer::Impl& fb) {
@@ -75,6 +100,7 @@ struct Device::Impl {
   Arena arena;
   std::vector<uint16_t> outcodes;
   std::vector<ClipVertex> clip;
+  std::vector<uint32_t> part_indices;
 
   Segment& new_segment();
   Segment& open_segment();
@@ -82,6 +108,8 @@ struct Device::Impl {
   void shade(const DrawState& state, const VertexBatch& batch, ShadedVertices& vertices);
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void draw(const DrawPacket& packet);
+  void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout);
+  void draw_part(const DrawPacket& packet, const VertexLayout& layout, const PipelineProgram& program);
   void execute(const LinearImage* image);
   void discard();
 };
@@ -145,24 +173,52 @@ void Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, u
 }
 
 void Device::Impl::draw(const DrawPacket& packet) {
-  const uint32_t primitives = primitive_count(packet.primitive, packet.index_count);
-  if (target == nullptr || primitives == 0 || packet.batch.count == 0) return;
+  if (target == nullptr || packet.batch.count == 0 || primitive_count(packet.primitive, packet.index_count) == 0) return;
   const DrawState& state = *packet.state;
-  const Rect bounds = draw_bounds(state, *target);
+  // Once for the whole draw: how it is cut into parts must not show.
   const VertexLayout layout = choose_layout(state, packet.batch);
   const PipelineProgram& program = program_for(packet.state, layout);
   ++statistics.draws;
   statistics.vertices += packet.batch.count;
-  if (program.draws_nothing || bounds.empty()) return;
+  if (program.draws_nothing || draw_bounds(state, *target).empty()) return;
   if (program.writes_color) target->need_color();
   if (program.reads_depth) target->need_depth();
+  draw_in_parts(packet, layout);
+}
+
+// Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending stays small.
+void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout) {
+  const uint32_t each = vertices_of_each(packet.primitive);
+  const uint32_t step = each * kPartPrimitives;
+  if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, program_for(packet.state, layout));
+  for (uint32_t first = 0; first < packet.index_count; first += step) {
+    DrawPacket part = packet;
+    part.index_count = std::min(step, packet.index_count - first);
+    uint32_t lowest = first, highest = first + part.index_count - 1;
+    if (packet.indices != nullptr) {
+      const uint32_t* indices = packet.indices + first;
+      lowest = highest = indices[0];
+      for (uint32_t i = 0; i < part.index_count; ++i) {  // not minmax_element: this is done in vectors
+        lowest = std::min(lowest, indices[i]);
+        highest = std::max(highest, indices[i]);
+      }
+      part_indices.resize(part.index_count);
+      for (uint32_t i = 0; i < part.index_count; ++i) part_indices[i] = indices[i] - lowest;
+      part.indices = part_indices.data();
+    }
+    part.batch = part_of(packet.batch, lowest, highest);
+    draw_part(part, layout, program_for(packet.state, layout));  // executing a full pass drops the program
+  }
+}
+
+void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const PipelineProgram& program) {
   DrawRecord& record = draws.emplace_back();
   record.state = packet.state;
-  record.bounds = bounds;
+  record.bounds = draw_bounds(*packet.state, *target);
   record.program = &program;
   record.vertices.layout = layout;
-  shade(state, packet.batch, record.vertices);
-  assemble_draw(record, packet, primitives);
+  shade(*packet.state, packet.batch, record.vertices);
+  assemble_draw(record, packet, primitive_count(packet.primitive, packet.index_count));
   // Clip coordinates and outcodes have done their work; the next draw takes their memory.
   record.vertices.outcodes.swap(outcodes);
   record.vertices.clip.swap(clip);

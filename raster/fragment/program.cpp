@@ -190,10 +190,6 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
   const bool depth = needs_depth(state.depth);
   program.depth = state.depth;
   program.depth.test = depth;
-  if (depth) {
-    const StageId stage = depth_stage(state.depth);
-    program.depth_kernel = find_kernels(&stage, 1).block;
-  }
   program.packs = !needs_alpha_test(state.alpha_test);
   for (unsigned variant = 0; variant <= kAffine; ++variant)
     program.packs = program.packs && cover(list_stages(state, layout, format, variant), depth ? 1 : 0, fuse,

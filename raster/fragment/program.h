@@ -40,7 +40,6 @@ struct PipelineProgram {
   // Small triangles: depth test first, then these on packed fragments. [0] perspective, [kAffine] affine, in float.
   BlockProgram packed[2];
   bool packs = false;
-  BlockFunction depth_kernel = nullptr;  // that test alone, on the rows of a block
   DepthState depth;  // the test that packing does; test == false: none
   FragmentParams params;
   bool reads_depth = false, writes_depth = false, writes_color = false;

@@ -60,14 +60,13 @@ HWY_INLINE void UpdateDepthMax(TileContext& t, int lane, int block, bool full) {
   }
 }
 
-// Makes t.block stand for the pixels `mask` of a block; false if none of them can be seen.
-bool BeginBlock(TileContext& t, int lane, int block, uint64_t mask) {
+void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   BlockContext& c = t.block;
   const SetupBatch& s = t.setup;
   const PipelineProgram& program = *t.program;
   c.dx = s.anchor_x[lane] + (block % 8) * kBlockSize;
   c.dy = s.anchor_y[lane] + (block / 8) * kBlockSize;
-  if (program.rejects_deeper && BlockIsHidden(t, lane, block)) return false;
+  if (program.rejects_deeper && BlockIsHidden(t, lane, block)) return;
   const uint64_t bit = uint64_t{1} << block;
   if (program.reads_depth) {
     if ((t.state->depth_is_clear & bit) != 0) t.framebuffer->settle_depth(t.tile, bit);
@@ -85,12 +84,7 @@ bool BeginBlock(TileContext& t, int lane, int block, uint64_t mask) {
   const auto fragments = static_cast<uint64_t>(__builtin_popcountll(mask));
   t.statistics->fragments += fragments;
   if ((s.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
-  return true;
-}
-
-void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
-  if (!BeginBlock(t, lane, block, mask)) return;
-  t.program->variants[t.setup.variant[lane]].run(t.block);
+  program.variants[s.variant[lane]].run(c);
   UpdateDepthMax(t, lane, block, mask == ~uint64_t{0});
 }
 
@@ -133,7 +127,7 @@ HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
 }
 
 // Fragments at the pixels of `mask`, in the window whose first pixel is (x, y), join those that wait; `depth`: after
-// they pass the depth test there, or null if that is done.
+// they pass the depth test there, if there is one.
 void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint32_t* depth) {
   const SetupBatch& s = t.setup;
   Packer& packer = t.packer;
@@ -147,36 +141,33 @@ void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint32_t*
   if (t.flat_color) packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
 }
 
-void PackTriangle(TileContext& t, int lane) {
-  const SetupBatch& s = t.setup;
-  const int x = s.min_x[lane], y = s.min_y[lane];
-  const TriangleWalk walk(s, lane);
-  const uint64_t mask = walk.Window(x, y, s.max_x[lane] - x + 1, s.max_y[lane] - y + 1);
-  if (mask == 0) return;
-  const uint64_t blocks = WindowBlocks(x, y, s.max_x[lane], s.max_y[lane]);
+// Fragments at the pixels of `mask`, in the window whose first pixel is (x, y), join those that wait once they have
+// passed the depth test. `blocks`: the blocks these pixels lie in.
+void TestAndPack(TileContext& t, int lane, int x, int y, uint64_t mask, uint64_t blocks) {
   PrepareWindow(t, blocks);
   t.statistics->fragments += static_cast<uint64_t>(__builtin_popcountll(mask));
   PackWindow(t, lane, x, y, mask, t.program->reads_depth ? t.framebuffer->depth_tile(t.tile) : nullptr);
   t.packer.blocks |= blocks;
 }
 
-// A block of a larger triangle. What waits for the block's pixels was drawn before and is stored before.
+void PackTriangle(TileContext& t, int lane) {
+  const SetupBatch& s = t.setup;
+  const int x = s.min_x[lane], y = s.min_y[lane];
+  const TriangleWalk walk(s, lane);
+  const uint64_t mask = walk.Window(x, y, s.max_x[lane] - x + 1, s.max_y[lane] - y + 1);
+  if (mask != 0) TestAndPack(t, lane, x, y, mask, WindowBlocks(x, y, s.max_x[lane], s.max_y[lane]));
+}
+
+// A block of a larger triangle: packed if little of it is covered, else row by row. What waits for the block's pixels
+// was drawn before and is stored before.
 void WalkBlock(TileContext& t, int lane, int block, uint64_t mask, bool packs) {
   const uint64_t bit = uint64_t{1} << block;
-  const bool pack = packs && __builtin_popcountll(mask) <= kPackAtMost;
-  if (!pack && (t.packer.blocks & bit) != 0) FlushPacked(t);
-  if (!BeginBlock(t, lane, block, mask)) return;
-  if (!pack) {
-    t.program->variants[t.setup.variant[lane]].run(t.block);
-  } else {
-    // The depth test goes by rows, the rest packed.
-    if (t.program->reads_depth) t.program->depth_kernel(t.block);
-    if (t.block.live != 0) {
-      PackWindow(t, lane, block % 8 * kBlockSize, block / 8 * kBlockSize, t.block.live, nullptr);
-      t.packer.blocks |= bit;
-    }
+  if (packs && __builtin_popcountll(mask) <= kPackAtMost) {
+    TestAndPack(t, lane, block % 8 * kBlockSize, block / 8 * kBlockSize, mask, bit);
+    return;
   }
-  UpdateDepthMax(t, lane, block, mask == ~uint64_t{0});
+  if ((t.packer.blocks & bit) != 0) FlushPacked(t);
+  RunBlock(t, lane, block, mask);
 }
 
 void WalkTriangle(TileContext& t, int lane, bool packs) {

@@ -1,8 +1,12 @@
 // Walking a triangle over the blocks of a tile: half-space tests, exact in int32. Compiled once per ISA level.
 
 struct TriangleWalk {
+  using D = hn::CappedTag<int32_t, kBlockSize>;
+  static constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));  // a row, or a part of one
+
   int32_t edge[3], step_x[3], step_y[3];
   int32_t lowest[3], highest[3];  // how much an edge value can fall or rise inside a block
+  hn::Vec<D> pattern[3];          // edge values of a vector's pixels, less that of its first
 
   HWY_INLINE TriangleWalk(const SetupBatch& s, int lane) {
     for (int k = 0; k < 3; ++k) {
@@ -12,6 +16,8 @@ struct TriangleWalk {
       const int32_t rise_x = step_x[k] > 0 ? step_x[k] : 0, rise_y = step_y[k] > 0 ? step_y[k] : 0;
       highest[k] = (kBlockSize - 1) * (rise_x + rise_y);
       lowest[k] = (kBlockSize - 1) * (step_x[k] - rise_x + step_y[k] - rise_y);
+      const D d;
+      pattern[k] = hn::Mul(hn::Iota(d, 0), hn::Set(d, step_x[k]));
     }
   }
 
@@ -43,24 +49,16 @@ struct TriangleWalk {
   }
 
  private:
-  // A vector takes a part of a row, a row, or two rows.
   HWY_INLINE uint64_t Rows(const int32_t e[3], int first, int last) const {
-    using D = hn::CappedTag<int32_t, 16>;
     const D d;
-    constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
-    constexpr int kRowsAtOnce = kWidth > kBlockSize ? kWidth / kBlockSize : 1;
     uint64_t mask = 0;
     for (int column = 0; column < kBlockSize; column += kWidth) {
-      const auto lane = hn::Iota(d, 0);
-      const auto x = hn::Add(hn::And(lane, hn::Set(d, kBlockSize - 1)), hn::Set(d, column));
-      const auto y = hn::Add(hn::ShiftRight<3>(lane), hn::Set(d, first));
       hn::Vec<D> v[3], step[3];
       for (int k = 0; k < 3; ++k) {
-        const auto across = hn::Mul(x, hn::Set(d, step_x[k])), up = hn::Mul(y, hn::Set(d, step_y[k]));
-        v[k] = hn::Add(hn::Set(d, e[k]), hn::Add(across, up));
-        step[k] = hn::Set(d, kRowsAtOnce * step_y[k]);
+        v[k] = hn::Add(pattern[k], hn::Set(d, e[k] + first * step_y[k] + column * step_x[k]));
+        step[k] = hn::Set(d, step_y[k]);
       }
-      for (int row = first; row <= last; row += kRowsAtOnce) {
+      for (int row = first; row <= last; ++row) {
         mask |= InsideBits(d, hn::Or(hn::Or(v[0], v[1]), v[2])) << (row * kBlockSize + column);
         for (int k = 0; k < 3; ++k) v[k] = hn::Add(v[k], step[k]);
       }
@@ -69,7 +67,6 @@ struct TriangleWalk {
   }
 
   // One bit a lane: set where the value is not negative.
-  template <class D>
   static HWY_INLINE uint64_t InsideBits(D d, hn::Vec<D> value) {
 #if HWY_TARGET == HWY_SCALAR
     (void)d;
@@ -77,8 +74,7 @@ struct TriangleWalk {
 #else
     uint8_t bits[8] = {};
     hn::StoreMaskBits(d, hn::Lt(value, hn::Zero(d)), bits);
-    const auto outside = static_cast<uint64_t>(bits[0] | bits[1] << 8);
-    return ~outside & ((uint64_t{1} << hn::MaxLanes(d)) - 1);
+    return ~uint64_t{bits[0]} & ((uint64_t{1} << kWidth) - 1);
 #endif
   }
 };
