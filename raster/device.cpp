@@ -21,8 +21,8 @@ namespace halfspace::raster {
 namespace {
 
 // Work kept back before it is executed, so that memory stays bounded whatever a frame draws.
-constexpr size_t kMaxPendingBytes = size_t{6} << 20;  // shaded vertices
-constexpr size_t kMaxPendingPrimitives = size_t{1} << 17;
+constexpr size_t kMaxPendingBytes = size_t{2} << 20;  // shaded vertices
+constexpr size_t kMaxPendingPrimitives = size_t{1} << 15;
 constexpr uint32_t kPartPrimitives = 16384;   // a larger draw is taken in parts
 constexpr uint32_t kParallelPrimitives = 4096;  // a part of fewer is not split over threads
 constexpr uint32_t kVerticesPerTask = 2048;
