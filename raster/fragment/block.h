@@ -35,8 +35,9 @@ struct FragmentParams {
   uint32_t color_mask = ~0u;  // bytes to write, as packed
 };
 
-// Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded; kOffset holds int32.
-enum Slot { kR, kG, kB, kA, kS, kT, kOffset, kTexR, kTexG, kTexB, kTexA, kLambda, kSlotCount };
+// Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded; kOffset holds int32;
+// kW is clip-space w.
+enum Slot { kR, kG, kB, kA, kS, kT, kOffset, kW, kTexR, kTexG, kTexB, kTexA, kLambda, kSlotCount };
 
 // Fragments of small triangles waiting to be shaded together. Filled by raster/tile/packing.inl.
 struct alignas(64) PixelQueue {

@@ -26,7 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/levels.inl"
 #include "raster/fragment/stages/write.inl"
 
-enum SlotGroup : unsigned { kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16 };
+enum SlotGroup : unsigned { kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32 };
 
 template <unsigned kGroups, unsigned kGroup, int kFirst, int kCount>
 HWY_INLINE void LoadGroup(const BlockContext& c, int i, Lanes& v) {
@@ -38,6 +38,7 @@ HWY_INLINE void LoadSlots(const BlockContext& c, int i, Lanes& v) {
   LoadGroup<kGroups, kColor, kR, 4>(c, i, v);
   LoadGroup<kGroups, kCoord, kS, 2>(c, i, v);
   LoadGroup<kGroups, kPlace, kS, 3>(c, i, v);
+  LoadGroup<kGroups, kEyeDepth, kW, 1>(c, i, v);
   LoadGroup<kGroups, kTexel, kTexR, 4>(c, i, v);
   LoadGroup<kGroups, kLevel, kLambda, 1>(c, i, v);
 }
@@ -52,6 +53,7 @@ HWY_INLINE void StoreSlots(const Lanes& v, int i, BlockContext& c) {
   StoreGroup<kGroups, kColor, kR, 4>(v, i, c);
   StoreGroup<kGroups, kCoord, kS, 2>(v, i, c);
   StoreGroup<kGroups, kPlace, kS, 3>(v, i, c);
+  StoreGroup<kGroups, kEyeDepth, kW, 1>(v, i, c);
   StoreGroup<kGroups, kTexel, kTexR, 4>(v, i, c);
   StoreGroup<kGroups, kLevel, kLambda, 1>(v, i, c);
 }

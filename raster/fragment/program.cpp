@@ -66,10 +66,18 @@ void add_lookup(const TextureView& view, Accuracy accuracy, StageList& list) {
   list.add(sample_linear);
 }
 
-StageId env_stage(EnvMode mode, BaseFormat format) {
+bool is_opaque(const TextureView& view) {
+  bool opaque = true;
+  for (int i = 0; i < view.level_count; ++i) opaque = opaque && view.levels[static_cast<size_t>(i)]->opaque;
+  return opaque;
+}
+
+// `opaque`: alpha is 1 wherever the texture is looked up, so what multiplies by it or mixes with it need not.
+StageId env_stage(EnvMode mode, BaseFormat format, bool opaque) {
   using enum StageId;
   const bool rgb = format != BaseFormat::alpha;
-  const bool alpha = format != BaseFormat::rgb && format != BaseFormat::luminance;
+  const bool has_alpha = format != BaseFormat::rgb && format != BaseFormat::luminance;
+  const bool alpha = has_alpha && !(opaque && rgb && (mode == EnvMode::modulate || mode == EnvMode::decal));
   auto pick = [&](StageId both, StageId rgb_only, StageId alpha_only) {
     return rgb ? (alpha ? both : rgb_only) : alpha_only;
   };
@@ -87,13 +95,19 @@ bool is_white(const Color& c) { return c.r == 1 && c.g == 1 && c.b == 1 && c.a =
 // GL_MODULATE by constant white is GL_REPLACE; replacing everything needs no primary colour.
 void add_texture_stages(const DrawState& state, const VertexLayout& layout, unsigned variant, StageList& list) {
   const TextureView& view = *state.texture.view;
-  list.add(coord_stage(layout, variant));
-  if (needs_lambda(view)) list.add(layout.projective ? StageId::lambda_projective : StageId::lambda);
-  add_lookup(view, state.accuracy, list);
   const bool white = layout.color < 0 && is_white(layout.constant_color);
   const EnvMode mode = white && state.texture.env == EnvMode::modulate ? EnvMode::replace : state.texture.env;
-  const StageId env = env_stage(mode, view.base_format);
-  if (env != StageId::replace_rgba) list.add(color_stage(state, layout, variant));
+  const StageId env = env_stage(mode, view.base_format, is_opaque(view));
+  StageId coord = coord_stage(layout, variant);
+  StageId color = color_stage(state, layout, variant);
+  if (coord == StageId::coord_perspective && color == StageId::color_perspective && env != StageId::replace_rgba) {
+    coord = StageId::coord_perspective_and_w;
+    color = StageId::color_perspective_at_w;
+  }
+  list.add(coord);
+  if (needs_lambda(view)) list.add(layout.projective ? StageId::lambda_projective : StageId::lambda);
+  add_lookup(view, state.accuracy, list);
+  if (env != StageId::replace_rgba) list.add(color);
   list.add(env);
 }
 

@@ -20,8 +20,8 @@ struct ColorFlat {
   }
 };
 
-// kVariant: bits of Variant. Perspective-correct: colour/w over 1/w, one divide a pixel.
-template <unsigned kVariant>
+// kVariant: bits of Variant. Perspective-correct: colour/w over 1/w, one divide a pixel; kAtW: none, w is there already.
+template <unsigned kVariant, bool kAtW = false>
 struct ColorSmooth {
   static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
   static constexpr bool kDivides = (kVariant & kAffine) == 0;
@@ -42,7 +42,9 @@ struct ColorSmooth {
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
     if constexpr (kPacks) {
-      const VF w = kDivides ? hn::Div(hn::Set(DF(), 1.0f), once.inv_w.At(i)) : hn::Zero(DF());
+      VF w = hn::Zero(DF());
+      if constexpr (kAtW) w = v.slot[kW];
+      else if constexpr (kDivides) w = hn::Div(hn::Set(DF(), 1.0f), once.inv_w.At(i));
       v.slot[kR] = InFloat(once.r.At(i), w);
       v.slot[kG] = InFloat(once.g.At(i), w);
       v.slot[kB] = InFloat(once.b.At(i), w);

@@ -26,6 +26,7 @@ struct Coord {
       const VF w = hn::Div(hn::Set(DF(), 1.0f), once.divisor.At(i));
       v.slot[kS] = hn::Mul(once.s.At(i), w);
       v.slot[kT] = hn::Mul(once.t.At(i), w);
+      v.slot[kW] = w;
     } else {
       v.slot[kS] = once.s.At(i);
       v.slot[kT] = once.t.At(i);
