@@ -7,7 +7,7 @@ using DIq = hn::RebindToSigned<DFq>;
 inline constexpr int kQueueLanes = static_cast<int>(hn::MaxLanes(DFq()));
 inline constexpr int kQueueParts = kQueueLanes / kDoubleLanes;
 inline constexpr int kWindow = 8;       // pixels a side
-inline constexpr int kPackAtMost = 40;  // pixels of a block; with more, its rows are full enough to go as they are
+inline constexpr int kPackAtMost = 20;  // pixels of a block; with more, its rows are full enough to go as they are
 
 // Takes the lowest kQueueLanes set bits off `mask` and returns their indices, one byte each; bytes beyond the last are
 // 0. In a register: a list in memory, written by bytes and read by words, would stall.
