@@ -40,11 +40,29 @@ void copy_blocks_rgba8(const Framebuffer::Impl& fb, int x0, int x1, int y, uint3
       std::fill_n(out + at, row.count, state.clear_rgba8);
     } else {
       const auto* pixels = fb.color_tile<uint32_t>(row.tile) + row.block * kBlockPixels + row.first_pixel;
-      if (row.count == kBlockSize) std::memcpy(out + at, pixels, kBlockSize * sizeof(uint32_t));
-      else std::memcpy(out + at, pixels, static_cast<size_t>(row.count) * sizeof(uint32_t));
+      std::memcpy(out + at, pixels, static_cast<size_t>(row.count) * sizeof(uint32_t));
     }
   });
 }
+
+// Eight rows of a tile, block by block: where each block's rows begin and how far apart they are. A block that is only
+// marked as cleared has one row for all.
+struct TileBand {
+  const uint32_t* block[8];
+  int step[8];
+
+  TileBand(const Framebuffer::Impl& fb, size_t tile, int band, const uint32_t* clear_row) {
+    for (int b = 0; b < 8; ++b) {
+      const bool marked = is_marked(fb.tiles[tile].color_is_clear, band * 8 + b);
+      block[b] = marked ? clear_row : fb.color_tile<uint32_t>(tile) + (band * 8 + b) * kBlockPixels;
+      step[b] = marked ? 0 : kBlockSize;
+    }
+  }
+  void copy_row(int row, uint32_t* out) const {
+    for (int b = 0; b < 8; ++b)
+      std::memcpy(out + b * kBlockSize, block[b] + row * step[b], kBlockSize * sizeof(uint32_t));
+  }
+};
 
 void copy_blocks_float(const Framebuffer::Impl& fb, int x0, int x1, int y, float* out) {
   for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
@@ -118,6 +136,36 @@ std::byte* image_row(const LinearImage& image, int y) {
   return static_cast<std::byte*>(image.data) + row * image.row_bytes;
 }
 
+bool takes_rgba8(const LinearImage& image) {
+  return image.layout == PixelLayout::rgba && !image.opaque && !image.float_components &&
+         (reinterpret_cast<uintptr_t>(image.data) | static_cast<uintptr_t>(image.row_bytes)) % sizeof(uint32_t) == 0;
+}
+
+// The usual case: a whole tile of bytes.
+bool resolve_whole_tile(const Framebuffer::Impl& fb, uint32_t tile, const Rect& rect, const LinearImage& image) {
+  if (fb.format != ColorFormat::rgba8 || image.float_components || rect.x1 - rect.x0 != kTileSize ||
+      rect.y1 - rect.y0 != kTileSize)
+    return false;
+  const bool direct = takes_rgba8(image);
+  const uint32_t alpha = image.opaque ? 0xff000000u : 0u;
+  uint32_t clear_row[kBlockSize], pixels[kTileSize];
+  std::fill_n(clear_row, kBlockSize, fb.tiles[tile].clear_rgba8);
+  for (int band = 0; band < 8; ++band) {
+    const TileBand rows(fb, tile, band, clear_row);
+    for (int row = 0; row < kBlockSize; ++row) {
+      std::byte* out = image_row(image, rect.y0 + band * kBlockSize + row) + static_cast<size_t>(rect.x0) * pixel_bytes(image);
+      if (direct) {
+        rows.copy_row(row, reinterpret_cast<uint32_t*>(out));
+        continue;
+      }
+      rows.copy_row(row, pixels);
+      for (uint32_t& pixel : pixels) pixel |= alpha;
+      store_row_bytes(pixels, kTileSize, image.layout, out);
+    }
+  }
+  return true;
+}
+
 void resolve_row(const Framebuffer::Impl& fb, int x0, int x1, int y, const LinearImage& image) {
   std::byte* out = image_row(image, y) + static_cast<size_t>(x0) * pixel_bytes(image);
   const int count = x1 - x0;
@@ -130,7 +178,7 @@ void resolve_row(const Framebuffer::Impl& fb, int x0, int x1, int y, const Linea
     return;
   }
   uint32_t rgba[kTileSize];
-  if (image.layout == PixelLayout::rgba && !image.opaque && reinterpret_cast<uintptr_t>(out) % 4 == 0) {
+  if (takes_rgba8(image)) {
     read_row_rgba8(fb, x0, x1, y, reinterpret_cast<uint32_t*>(out));
     return;
   }
@@ -179,7 +227,7 @@ void read_row_depth(const Framebuffer::Impl& fb, int x0, int x1, int y, uint32_t
 void resolve_tile(const Framebuffer::Impl& fb, uint32_t tile, const LinearImage& image) {
   // The image's top row is the framebuffer's when y goes down, so rows are told from the bottom of the image.
   const Rect rect = intersect(fb.tile_rect(tile), {0, 0, image.width, image.height});
-  if (rect.empty()) return;
+  if (rect.empty() || resolve_whole_tile(fb, tile, rect, image)) return;
   for (int y = rect.y0; y < rect.y1; ++y) resolve_row(fb, rect.x0, rect.x1, y, image);
 }
 
