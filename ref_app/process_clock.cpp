@@ -1,9 +1,8 @@
 #include "ref_app/process_clock.h"
 
-#include <sys/resource.h>
-
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 
 namespace ref_app {
 namespace {
@@ -40,9 +39,13 @@ double milliseconds_since_process_start() {
 std::string process_start_source() { return from_environment ? "environment" : "estimate"; }
 
 long peak_memory_kib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss;
+  // "VmHWM:     12345 kB", proc(5). Not getrusage's ru_maxrss: execve leaves that at what the parent held at fork.
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    long kib = 0;
+    if (word == "VmHWM:" && status >> kib) return kib;
+  }
+  return 0;
 }
 
 }  // namespace ref_app

@@ -14,7 +14,7 @@ double milliseconds_since_process_start();
 // "environment" or "estimate".
 std::string process_start_source();
 
-// Peak resident set, in KiB.
+// Peak resident set since the program was loaded, in KiB; 0 where there is no /proc.
 long peak_memory_kib();
 
 }  // namespace ref_app
