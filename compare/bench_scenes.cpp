@@ -112,7 +112,6 @@ BenchRow start_row(const BenchOptions& options, const Progress& progress) {
 BenchRow memory_row(const BenchOptions& options, int scene, const Progress& progress) {
   const std::string what = "peak memory, scene " + std::to_string(scene);
   SceneJob job = make_job(options, Renderer::ours, {scene}, 1, {chosen_core(options)});
-  job.from_small_parent = true;
   std::vector<double> ours, theirs;
   measure_processes(
       options, what, job,

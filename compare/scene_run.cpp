@@ -53,11 +53,6 @@ ChildCommand command_of(const SceneJob& job, const fs::path& json) {
     command.arguments.push_back("--scene");
     command.arguments.push_back(std::to_string(scene));
   }
-  if (job.from_small_parent) {
-    // In the background, or the shell would become the program instead of forking.
-    const std::vector<std::string> shell{"/bin/sh", "-c", "\"$@\" & wait $!", "sh"};
-    command.arguments.insert(command.arguments.begin(), shell.begin(), shell.end());
-  }
   command.environment = environment_of(job);
   command.cores = job.cores;
   command.output = job.out / "log.txt";

@@ -30,9 +30,6 @@ struct SceneJob {
   int width = 1024, height = 1024;
   int threads = 0;         // 0: as many as the library chooses
   std::vector<int> cores;  // empty: any
-  // Start it from a shell: Linux hands a process's ru_maxrss the size its parent had at fork, and we are
-  // larger than what is to be measured. Costs a millisecond, so not when the start is measured.
-  bool from_small_parent = false;
   std::filesystem::path out;           // folder of the pictures, result.json and log.txt
   bool pictures = true;                // saved as PNG
   std::optional<std::string> library;  // folder of our libOSMesa.so.8
