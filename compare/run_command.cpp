@@ -20,7 +20,7 @@ struct RunOptions {
   std::vector<std::string> program;
   std::string capture, format = "png";
   std::optional<std::string> library;
-  bool preload = false, stats = false, force = false;
+  bool preload = false, force = false;
 };
 
 void require_program(const RunOptions& options) {
@@ -36,7 +36,6 @@ ChildCommand child_command(const RunOptions& options) {
   child.arguments = options.program;
   child.environment.push_back(library_path_with(folder));
   if (options.preload) child.environment.push_back(preload_with(folder / kLibraryName));
-  if (options.stats) child.environment.emplace_back("HALFSPACE_STATS", "1");
   if (!options.capture.empty())
     child.environment.emplace_back("HALFSPACE_CAPTURE", fs::absolute(options.capture).string());
   return child;
@@ -100,7 +99,6 @@ void add_run_command(CLI::App& app, int& status) {
   command->add_flag("--force", options->force, "Replace frames captured before");
   command->add_flag("--preload", options->preload,
                     "Also LD_PRELOAD libGL.so.1, for a program with a library path of its own");
-  command->add_flag("--stats", options->stats, "Print per frame which stages ran, and on how much");
   command->add_option("--library", options->library, "Folder that holds libGL.so.1")->type_name("DIR");
   // Everything from PROGRAM on is the program's, options too.
   command->prefix_command();
