@@ -55,63 +55,108 @@ HWY_INLINE void SetBox(const SetupInput& in, int32_t center_x, int32_t center_y,
   }
 }
 
-// What the planes of a group of lanes are made from, and how wrong floats would be.
+// What the planes of a group of lanes are made from, and how wrong floats would be. Coverage takes the corners where
+// they were snapped to; planes belong to the corners as they were before, so that what is drawn does not move with
+// the snapping. That needs a triangle which snapping hardly changes: one it does is taken as snapped.
 struct PlaneMaker {
   VD ex1, ey1, ex2, ey2, scale;
   VD inv_w[3];
+  VD rest_x, rest_y;  // from the reference vertex as snapped to where it was, pixels
+  VD moved;           // the most a corner was moved along either axis, pixels
   hn::Mask<DD> affine;
   VD width, height;    // pixels
-  VD w_error, w_least;  // of the 1/w plane in float; its least value at a corner
+  VD w_error, w_least;  // of the 1/w plane in float; its least value at a covered pixel
+  VD w_spread;          // 1 / w_least
+  VD w_excess;          // 1/w at the corner where it is least over w_least
   hn::Mask<DD> needs_double;
 
   HWY_INLINE PlaneMaker(const CornerVectors& v, const SetupInput& in, int i) {
     const DD d;
-    ex1 = hn::Sub(v.x[1], v.x[0]), ey1 = hn::Sub(v.y[1], v.y[0]);
-    ex2 = hn::Sub(v.x[2], v.x[0]), ey2 = hn::Sub(v.y[2], v.y[0]);
-    const VD area = hn::Sub(hn::Mul(ex1, ey2), hn::Mul(ex2, ey1));
-    const auto flat = hn::Eq(area, hn::Zero(d));
-    scale = hn::IfThenZeroElse(flat, hn::Div(hn::Set(d, 256.0), hn::IfThenElse(flat, hn::Set(d, 1.0), area)));
+    const VD pixel = hn::Set(d, 1.0 / kSubpixelScale);
     for (int k = 0; k < 3; ++k) inv_w[k] = hn::Load(d, in.inv_w[k] + i);
     affine = hn::And(hn::Eq(inv_w[0], inv_w[1]), hn::Eq(inv_w[0], inv_w[2]));
-    const VD pixel = hn::Set(d, 1.0 / kSubpixelScale);
+    ex1 = hn::Sub(v.x[1], v.x[0]), ey1 = hn::Sub(v.y[1], v.y[0]);
+    ex2 = hn::Sub(v.x[2], v.x[0]), ey2 = hn::Sub(v.y[2], v.y[0]);
+    VD area = hn::Sub(hn::Mul(ex1, ey2), hn::Mul(ex2, ey1));
+    TakeBackSnapping(in, i, area);
+    const auto flat = hn::Eq(area, hn::Zero(d));
+    scale = hn::IfThenZeroElse(flat, hn::Div(hn::Set(d, 256.0), hn::IfThenElse(flat, hn::Set(d, 1.0), area)));
     width = hn::Mul(Extent(v.x), pixel);
     height = hn::Mul(Extent(v.y), pixel);
     needs_double = hn::Ne(area, area);
     w_error = hn::Zero(d);
-    w_least = hn::Set(d, 1.0);
+    w_least = w_spread = w_excess = hn::Set(d, 1.0);
   }
 
+  // Moves the corners to where they were before snapping. A covered pixel may then lie outside the triangle, by half
+  // a sub-pixel: no barycentric coordinate, and no 1/w in parts of its least value, may change over that by more than
+  // a quarter, or else the corners stay.
+  HWY_INLINE void TakeBackSnapping(const SetupInput& in, int i, VD& area) {
+    const DD d;
+    VD rx[3], ry[3];
+    for (int k = 0; k < 3; ++k) rx[k] = LoadFloat(in.rest_x[k] + i), ry[k] = LoadFloat(in.rest_y[k] + i);
+    const VD x1 = hn::Add(ex1, hn::Sub(rx[1], rx[0])), y1 = hn::Add(ey1, hn::Sub(ry[1], ry[0]));
+    const VD x2 = hn::Add(ex2, hn::Sub(rx[2], rx[0])), y2 = hn::Add(ey2, hn::Sub(ry[2], ry[0]));
+    const VD true_area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
+    const VD longest = hn::Max(hn::Max(Length(x1, y1), Length(x2, y2)), Length(hn::Sub(x2, x1), hn::Sub(y2, y1)));
+    const VD d1 = hn::Sub(inv_w[1], inv_w[0]), d2 = hn::Sub(inv_w[2], inv_w[0]);
+    const VD slope = Length(hn::Sub(hn::Mul(d1, y2), hn::Mul(d2, y1)), hn::Sub(hn::Mul(d2, x1), hn::Mul(d1, x2)));
+    const VD least = hn::Min(hn::Min(inv_w[0], inv_w[1]), inv_w[2]);
+    const VD half = hn::Mul(true_area, hn::Set(d, 0.5));  // a quarter over half a sub-pixel
+    const auto use = hn::And(hn::Le(longest, half), hn::Le(slope, hn::Mul(least, half)));
+    ex1 = hn::IfThenElse(use, x1, ex1), ey1 = hn::IfThenElse(use, y1, ey1);
+    ex2 = hn::IfThenElse(use, x2, ex2), ey2 = hn::IfThenElse(use, y2, ey2);
+    area = hn::IfThenElse(use, true_area, area);
+    VD most = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) most = hn::Max(most, hn::Max(hn::Abs(rx[k]), hn::Abs(ry[k])));
+    const VD pixel = hn::Set(d, 1.0 / kSubpixelScale);
+    rest_x = hn::IfThenElseZero(use, hn::Mul(rx[0], pixel));
+    rest_y = hn::IfThenElseZero(use, hn::Mul(ry[0], pixel));
+    moved = hn::IfThenElseZero(use, hn::Mul(most, pixel));
+  }
+
+  static HWY_INLINE VD Length(VD x, VD y) { return hn::Add(hn::Abs(x), hn::Abs(y)); }
   static HWY_INLINE VD Extent(const VD p[3]) {
     return hn::Sub(hn::Max(hn::Max(p[0], p[1]), p[2]), hn::Min(hn::Min(p[0], p[1]), p[2]));
   }
 
-  // Stores the plane through the corners' values; returns the bound on what PlaneAt in float may be off.
-  HWY_INLINE VD Store(const VD value[3], int plane, int i, SetupBatch& out) const {
+  struct Bounds {
+    VD error;  // of PlaneAt in float
+    VD drift;  // of a corner's value by snapping
+  };
+
+  // Stores the plane through the corners' values.
+  HWY_INLINE Bounds Store(const VD value[3], int plane, int i, SetupBatch& out) const {
     const DD d;
     const VD d1 = hn::Sub(value[1], value[0]), d2 = hn::Sub(value[2], value[0]);
     const VD dfdx = hn::Mul(hn::Sub(hn::Mul(d1, ey2), hn::Mul(d2, ey1)), scale);
     const VD dfdy = hn::Mul(hn::Sub(hn::Mul(d2, ex1), hn::Mul(d1, ex2)), scale);
-    hn::Store(value[0], d, out.f0[plane] + i);
+    const VD f0 = hn::Sub(value[0], hn::Add(hn::Mul(dfdx, rest_x), hn::Mul(dfdy, rest_y)));
+    hn::Store(f0, d, out.f0[plane] + i);
     hn::Store(dfdx, d, out.dfdx[plane] + i);
     hn::Store(dfdy, d, out.dfdy[plane] + i);
     const DDf f;
-    hn::Store(hn::DemoteTo(f, value[0]), f, out.f0_f[plane] + i);
+    hn::Store(hn::DemoteTo(f, f0), f, out.f0_f[plane] + i);
     hn::Store(hn::DemoteTo(f, dfdx), f, out.dfdx_f[plane] + i);
     hn::Store(hn::DemoteTo(f, dfdy), f, out.dfdy_f[plane] + i);
-    const VD reach = hn::Add(hn::Abs(value[0]), hn::Add(hn::Mul(hn::Abs(dfdx), width), hn::Mul(hn::Abs(dfdy), height)));
-    return hn::Mul(reach, hn::Set(d, kFloatUlps));
+    const VD reach = hn::Add(hn::Abs(f0), hn::Add(hn::Mul(hn::Abs(dfdx), width), hn::Mul(hn::Abs(dfdy), height)));
+    return {hn::Mul(reach, hn::Set(d, kFloatUlps)), hn::Mul(Length(dfdx, dfdy), moved)};
   }
 
   HWY_INLINE void StoreInvW(int i, SetupBatch& out) {
     const DD d;
-    const VD error = Store(inv_w, 1, i, out);
-    w_error = hn::IfThenZeroElse(affine, error);
+    const VD one = hn::Set(d, 1.0);
+    const Bounds bounds = Store(inv_w, 1, i, out);
+    w_error = hn::IfThenZeroElse(affine, bounds.error);
     const VD least = hn::Min(hn::Min(inv_w[0], inv_w[1]), inv_w[2]);
-    w_least = hn::IfThenElse(affine, hn::Set(d, 1.0), least);
+    w_least = hn::IfThenElse(affine, one, hn::Sub(least, bounds.drift));
+    w_spread = hn::Div(one, w_least);
+    w_excess = hn::IfThenElse(affine, one, hn::Mul(least, w_spread));
   }
 
   // An attribute: plane of value / w, or of the value itself where w is constant (unless `divided` anyway). A pixel's
-  // value errs by (error of value/w + value * error of 1/w) * w, and by the roundings of the divide.
+  // value errs by (error of value/w + value * error of 1/w) * w, and by the roundings of the divide. It is largest at
+  // a snapped corner, where neither value/w nor 1/w differ by more than their drift from what they are at the corner.
   HWY_INLINE void StoreAttribute(const VD value[3], int plane, int i, bool divided, VD tolerance, SetupBatch& out) {
     const DD d;
     VD weighted[3];
@@ -119,9 +164,10 @@ struct PlaneMaker {
       const VD by_w = hn::Mul(value[k], inv_w[k]);
       weighted[k] = divided ? by_w : hn::IfThenElse(affine, value[k], by_w);
     }
-    const VD error = Store(weighted, plane, i, out);
-    const VD largest = hn::Max(hn::Max(hn::Abs(value[0]), hn::Abs(value[1])), hn::Abs(value[2]));
-    const VD left = hn::Add(error, hn::Mul(largest, w_error));
+    const Bounds bounds = Store(weighted, plane, i, out);
+    const VD at_corners = hn::Max(hn::Max(hn::Abs(value[0]), hn::Abs(value[1])), hn::Abs(value[2]));
+    const VD largest = hn::Add(hn::Mul(at_corners, w_excess), hn::Mul(bounds.drift, w_spread));
+    const VD left = hn::Add(bounds.error, hn::Mul(largest, w_error));
     const VD right = hn::Mul(hn::Sub(tolerance, hn::Mul(largest, hn::Set(d, kFloatUlps))), w_least);
     needs_double = hn::Or(needs_double, hn::Not(hn::Le(left, right)));
   }
@@ -140,7 +186,7 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
   VD value[3];
   for (int k = 0; k < 3; ++k) value[k] = hn::Mul(hn::Load(d, in.z[k] + i), hn::Set(d, kDepthScale));
   maker.Store(value, 0, i, out);
-  hn::Store(hn::Add(value[0], hn::Set(d, 0.5)), d, out.f0[0] + i);  // truncation then rounds to nearest
+  hn::Store(hn::Add(hn::Load(d, out.f0[0] + i), hn::Set(d, 0.5)), d, out.f0[0] + i);  // truncation then rounds to nearest
   maker.StoreInvW(i, out);
   if (layout.color >= 0) {
     for (int a = layout.color; a < layout.color + 4; ++a) {

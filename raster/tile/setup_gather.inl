@@ -2,6 +2,7 @@
 
 struct SetupInput {
   alignas(64) int32_t x[3][kSetupLanes], y[3][kSetupLanes];
+  alignas(64) float rest_x[3][kSetupLanes], rest_y[3][kSetupLanes];
   alignas(64) double z[3][kSetupLanes], inv_w[3][kSetupLanes];
   alignas(64) float attribute[kMaxPlanes - 2][3][kSetupLanes];
 };
@@ -29,14 +30,15 @@ HWY_INLINE void OrderCorners(const VertexHead* v[3]) {
 
 // Corners of a primitive in the order set-up wants them. Corners that are not the draw's own vertices lie in `made`:
 // those of a cut primitive, and the third one of a line. A line's planes have their gradient along it: a corner at
-// right angles, with the first one's values, makes the triangle's formula the line's. A point gets two such corners.
+// right angles, as snapped and as it was before, with the first one's values, makes the triangle's formula the line's.
+// A point gets two such corners.
 HWY_INLINE void FindCorners(const Segment& segment, const ShadedVertices& vertices, size_t stride,
                             const PrimitiveRef& ref, VertexHead made[3], const VertexHead* v[3]) {
   const int given = ref.kind == PrimitiveKind::triangle ? 3 : (ref.kind == PrimitiveKind::line ? 2 : 1);
   for (int k = 0; k < given; ++k) {
     if (ref.cut) {
       const CutTriangle& cut = segment.cut_triangles.data()[ref.v[0]];
-      made[k] = {cut.x[k], cut.y[k], 0, 1};
+      made[k] = {cut.x[k], cut.y[k], 0, 1, 0, 0};
       v[k] = &made[k];
     } else {
       v[k] = Head(vertices, stride, ref.v[k]);
@@ -49,10 +51,11 @@ HWY_INLINE void FindCorners(const Segment& segment, const ShadedVertices& vertic
       v[1] = v[0];
       v[0] = first;
     }
-    made[2] = {v[0]->x - (v[1]->y - v[0]->y), v[0]->y + (v[1]->x - v[0]->x), v[0]->z, v[0]->inv_w};
+    made[2] = {v[0]->x - (v[1]->y - v[0]->y), v[0]->y + (v[1]->x - v[0]->x), v[0]->z, v[0]->inv_w,
+               v[0]->rest_x - (v[1]->rest_y - v[0]->rest_y), v[0]->rest_y + (v[1]->rest_x - v[0]->rest_x)};
   } else {
-    made[1] = {v[0]->x + kSubpixelScale, v[0]->y, v[0]->z, v[0]->inv_w};
-    made[2] = {v[0]->x, v[0]->y + kSubpixelScale, v[0]->z, v[0]->inv_w};
+    made[1] = {v[0]->x + kSubpixelScale, v[0]->y, v[0]->z, v[0]->inv_w, 0, 0};
+    made[2] = {v[0]->x, v[0]->y + kSubpixelScale, v[0]->z, v[0]->inv_w, 0, 0};
     v[1] = &made[1];
   }
   v[2] = &made[2];
@@ -66,6 +69,8 @@ HWY_INLINE void StoreCorners(const VertexHead* const v[3], const VertexHead made
     in.y[k][lane] = v[k]->y;
     in.z[k][lane] = v[k]->z;
     in.inv_w[k][lane] = v[k]->inv_w;
+    in.rest_x[k][lane] = v[k]->rest_x;
+    in.rest_y[k][lane] = v[k]->rest_y;
   }
   if (cut) return;
   for (int k = 0; k < 3; ++k) {

@@ -22,6 +22,8 @@ struct VertexHead {
   int32_t x, y;   // window position, 16.8, snapped: floor(v * 256 + 0.5). Undefined when the outcode says clip.
   double z;       // window depth in [0, 1], after the depth range
   double inv_w;   // 1 / clip-space w
+  // What snapping took away, in 1/256 px, [-0.5, 0.5]: x + rest_x is where the vertex would be.
+  float rest_x, rest_y;
 };
 
 // Which floats a record holds. Offsets count floats from the end of VertexHead; -1: not there.

@@ -30,6 +30,7 @@ struct alignas(64) Group {
   float position[4][kGroup];
   double z[kGroup], inv_w[kGroup];
   int32_t x[kGroup], y[kGroup];
+  float rest_x[kGroup], rest_y[kGroup];
   uint64_t outcode[kGroup];
 };
 
@@ -82,11 +83,15 @@ HWY_INLINE Vec outcodes(const ClipVec& c, const WindowTransform& t) {
 }
 
 // x / w, not x * (1 / w): correctly rounded, so that a vertex meant to lie on the grid does.
-HWY_INLINE void store_fixed(Vec clip, Vec w, Mask usable, double scale, double offset, int32_t* out) {
+HWY_INLINE void store_fixed(Vec clip, Vec w, Mask usable, double scale, double offset, int32_t* out,
+                            float* rest) {
   const Doubles d;
   const hn::Rebind<int32_t, Doubles> di;
-  const Vec scaled = hn::Add(hn::Mul(hn::Div(clip, w), hn::Set(d, scale)), hn::Set(d, 0.5));
-  Vec v = hn::Add(hn::Floor(scaled), hn::Set(d, offset));
+  const hn::Rebind<float, Doubles> df;
+  const Vec ideal = hn::Mul(hn::Div(clip, w), hn::Set(d, scale));
+  const Vec grid = hn::Floor(hn::Add(ideal, hn::Set(d, 0.5)));
+  hn::StoreU(hn::DemoteTo(df, hn::IfThenElseZero(usable, hn::Sub(ideal, grid))), df, rest);
+  Vec v = hn::Add(grid, hn::Set(d, offset));
   v = hn::IfThenElseZero(usable, v);
   const Vec high = hn::Set(d, double(kGuardBandMax) * kSubpixelScale - 1);  // may have been rounded up to it
   v = hn::IfThenElse(hn::Gt(v, high), high, v);
@@ -97,8 +102,8 @@ HWY_INLINE void store_window(const ClipVec& c, Mask usable, const WindowTransfor
   const Doubles d;
   const Vec one = hn::Set(d, 1.0);
   const Vec w = hn::IfThenElse(usable, c.w, one);
-  store_fixed(c.x, w, usable, t.scale_x, t.offset_x, g.x + i);
-  store_fixed(c.y, w, usable, t.scale_y, t.offset_y, g.y + i);
+  store_fixed(c.x, w, usable, t.scale_x, t.offset_x, g.x + i, g.rest_x + i);
+  store_fixed(c.y, w, usable, t.scale_y, t.offset_y, g.y + i, g.rest_y + i);
   Vec z = hn::Add(hn::Mul(hn::Div(c.z, w), hn::Set(d, t.depth_scale)), hn::Set(d, t.depth_offset));
   const Vec low = hn::Set(d, t.depth_low), high = hn::Set(d, t.depth_high);  // an ulp beyond, at most
   z = hn::IfThenElse(hn::Lt(z, low), low, z);
@@ -172,6 +177,8 @@ HWY_INLINE void store_heads(const ShadeJob& job, uint32_t first, uint32_t count,
     head->y = g.y[i];
     head->z = g.z[i];
     head->inv_w = g.inv_w[i];
+    head->rest_x = g.rest_x[i];
+    head->rest_y = g.rest_y[i];
     outcode[i] = uint16_t(g.outcode[i]);
   }
 }

@@ -37,7 +37,7 @@ enum class Positions : uint8_t {
 };
 
 // What our renderer promises; the pictures of others are held to either.
-inline constexpr Positions kContract = Positions::snapped;
+inline constexpr Positions kContract = Positions::ideal;
 
 class TrueTriangle {
  public:

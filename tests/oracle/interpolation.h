@@ -14,20 +14,30 @@ struct Affine {
   Real value, dx, dy;
 };
 
-// The affine function through `values` at the corners, at the centre of (px, py). The corners are integers,
-// so the only rounding is Real's own. The triangle has area.
 template <typename Real>
-Affine<Real> affine(const SnappedTriangle& t, const std::array<Real, 3>& values, int px, int py) {
-  // Differences to corner 0, in pixels.
-  const auto pixels = [](int64_t snapped) { return Real(snapped) / Real(256); };
-  const Real x1 = pixels(t[1].x - t[0].x), y1 = pixels(t[1].y - t[0].y);
-  const Real x2 = pixels(t[2].x - t[0].x), y2 = pixels(t[2].y - t[0].y);
+struct Position {
+  Real x, y;  // pixels
+};
+
+// The affine function through `values` at three corners, at the centre of (px, py). The triangle has area.
+template <typename Real>
+Affine<Real> affine(const std::array<Position<Real>, 3>& t, const std::array<Real, 3>& values, int px, int py) {
+  const Real x1 = t[1].x - t[0].x, y1 = t[1].y - t[0].y;
+  const Real x2 = t[2].x - t[0].x, y2 = t[2].y - t[0].y;
   const Real area = x1 * y2 - x2 * y1;
   const Real v1 = values[1] - values[0], v2 = values[2] - values[0];
   const Real dx = (v1 * y2 - v2 * y1) / area;
   const Real dy = (v2 * x1 - v1 * x2) / area;
-  const Real x = pixels(int64_t{px} * 256 + 128 - t[0].x), y = pixels(int64_t{py} * 256 + 128 - t[0].y);
+  const Real x = Real(px) + Real(0.5) - t[0].x, y = Real(py) + Real(0.5) - t[0].y;
   return {values[0] + dx * x + dy * y, dx, dy};
+}
+
+// The same for corners on the grid.
+template <typename Real>
+Affine<Real> affine(const SnappedTriangle& t, const std::array<Real, 3>& values, int px, int py) {
+  std::array<Position<Real>, 3> corners;
+  for (size_t i = 0; i < 3; ++i) corners[i] = {Real(t[i].x) / Real(256), Real(t[i].y) / Real(256)};
+  return affine(corners, values, px, py);
 }
 
 // A quotient of two affine functions with its derivatives: a perspective-correct value (spec 3.5.1,

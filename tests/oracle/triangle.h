@@ -14,13 +14,15 @@ struct ClipPoint {
 
 class Triangle {
  public:
-  // All w > 0. Window coordinates by spec 2.10.1, then snapped; depth and 1/w belong to the snapped corners.
+  // All w > 0. Window coordinates by spec 2.10.1. Coverage takes them snapped; depth, 1/w and attributes belong to the
+  // corners before snapping, unless a covered pixel could then lie too far outside: where half a sub-pixel changes a
+  // barycentric coordinate, or 1/w in parts of its least value, by more than a quarter, they belong to the snapped ones.
   Triangle(const raster::Viewport& viewport, const std::array<ClipPoint, 3>& corners);
 
   const SnappedTriangle& corners() const { return corners_; }
   bool covers(int px, int py) const { return oracle::covers(corners_, px, py); }
   // Window depth in [0, 1].
-  long double depth(int px, int py) const { return affine(corners_, depth_, px, py).value; }
+  long double depth(int px, int py) const { return affine(planes_, depth_, px, py).value; }
   // A perspective-correct attribute with its window derivatives.
   Affine<long double> attribute(const std::array<long double, 3>& values, int px, int py) const;
   // The same for value / q, as texture coordinates s and t are (spec 3.5.1).
@@ -30,7 +32,10 @@ class Triangle {
  private:
   Affine<long double> over_w(const std::array<long double, 3>& values, int px, int py) const;
 
+  bool may_leave_grid(const std::array<Position<long double>, 3>& ideal) const;
+
   SnappedTriangle corners_;
+  std::array<Position<long double>, 3> planes_;  // the corners attributes belong to
   std::array<long double, 3> depth_, inv_w_;
 };
 
