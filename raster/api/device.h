@@ -19,7 +19,7 @@ struct ClearCommand {
   Rect scissor;
 };
 
-// Counters since creation; HALFSPACE_STATS prints them.
+// Counters since creation.
 struct DeviceStatistics {
   uint64_t draws = 0, vertices = 0, triangles = 0, culled = 0, clipped = 0, passes = 0;
   uint64_t fragments = 0;         // lanes that reached a fragment program
