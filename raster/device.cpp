@@ -286,7 +286,7 @@ void Device::clear(const ClearCommand& command) {
 }
 
 void Device::draw(const DrawPacket& packet) { impl_->draw(packet); }
-void Device::finish(const LinearImage* image) { impl_->execute(image); }
+void Device::finish(const LinearImage* image, ColorPlane) { impl_->execute(image); }
 const DeviceStatistics& Device::statistics() const { return impl_->statistics; }
 
 namespace {
@@ -305,7 +305,7 @@ void read_rows(const Framebuffer::Impl& fb, const Rect& rect, size_t channels, T
 
 }  // namespace
 
-void Device::read_color(const Rect& rect, uint8_t* out) {
+void Device::read_color(const Rect& rect, uint8_t* out, ColorPlane) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
@@ -316,7 +316,7 @@ void Device::read_color(const Rect& rect, uint8_t* out) {
   });
 }
 
-void Device::read_color_float(const Rect& rect, float* out) {
+void Device::read_color_float(const Rect& rect, float* out, ColorPlane) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;

@@ -1,22 +1,49 @@
-// The renderer: begin a pass on a framebuffer, clear and draw, end it. Work is binned and done when someone looks.
+// The renderer: begin a pass on a framebuffer, clear and draw, end it. Work is binned and done when someone
+// looks.
 #pragma once
 
 #include <memory>
 #include <string_view>
 
 #include "raster/api/draw_packet.h"
+#include "raster/api/feedback.h"
 #include "raster/api/framebuffer.h"
+#include "raster/api/pixel_packet.h"
 
 namespace halfspace::raster {
 
 struct ClearCommand {
-  bool color = false, depth = false;
-  Color color_value;      // clamped to [0, 1] for rgba8
-  double depth_value = 1;  // in [0, 1]
+  bool color = false, depth = false, stencil = false, accum = false;
+  uint8_t color_targets = kBackPlane;  // bits of ColorPlane
+  Color color_value;                   // clamped to [0, 1] for rgba8
+  double depth_value = 1;              // in [0, 1]
   ColorMask color_mask;
   bool depth_write = true;
+  uint8_t stencil_value = 0, stencil_mask = 0xff;
+  Color accum_value;  // in [-1, 1]
   bool scissor_test = false;
   Rect scissor;
+};
+
+// glAccum (spec 4.2.4); values are kept in 16-bit signed fixed point, 32767 is 1.0.
+enum class AccumOp : uint8_t { accum, load, return_, mult, add };
+struct AccumCommand {
+  AccumOp op = AccumOp::accum;
+  float value = 0;
+  ColorPlane read_plane = kBackPlane;  // accum, load: where colours come from
+  uint8_t color_targets = kBackPlane;  // return_: where they go, under the mask
+  ColorMask color_mask;
+  bool scissor_test = false;
+  Rect scissor;
+};
+
+// What the vertex stage makes of one vertex (glRasterPos, spec 2.13).
+struct ShadedPoint {
+  bool valid = false;                  // false: clipped, and the rest is undefined
+  double x = 0, y = 0, z = 0, w = 1;   // window coordinates, depth in [0, 1]; clip-space w
+  double eye_distance = 0;             // |z_e|
+  Color color;                         // lit if lighting is on, clamped
+  double tex_coord[4] = {0, 0, 0, 1};  // s t r q, generated and through the texture matrix
 };
 
 // Counters since creation.
@@ -44,18 +71,26 @@ class Device {
   void begin_pass(Framebuffer* target);
   void clear(const ClearCommand& command);
   void draw(const DrawPacket& packet);
+  void draw_pixels(const PixelPacket& packet);
+  void accumulate(const AccumCommand& command);
+
+  // Vertex 0 of the batch alone. Draws nothing.
+  ShadedPoint shade_point(const DrawState& state, const VertexBatch& batch);
+  // Takes the packet through the vertex stage, clipping, culling and the polygon mode, and no further.
+  void feedback(const DrawPacket& packet, FeedbackSink& sink);
 
   // Executes all pending work. With `image`, also converts the picture to it, tile by tile while it is hot.
-  void finish(const LinearImage* image = nullptr);
+  void finish(const LinearImage* image = nullptr, ColorPlane plane = kBackPlane);
 
-  // Reads pixels of the current target (finishing first). `out`: row 0 is the lowest row of `rect`, rows packed.
-  // Pixels of `rect` outside the framebuffer are left as they are.
-  // read_color: 4 bytes a pixel, R, G, B, A (float framebuffers are clamped and rounded).
-  void read_color(const Rect& rect, uint8_t* out);
+  // Reads pixels of the current target (finishing first). `out`: row 0 is the lowest row of `rect`, rows
+  // packed. Pixels of `rect` outside the framebuffer are left as they are. read_color: 4 bytes a pixel, R, G,
+  // B, A (float framebuffers are clamped and rounded).
+  void read_color(const Rect& rect, uint8_t* out, ColorPlane plane = kBackPlane);
   // 4 floats a pixel; for rgba8, c / 255.
-  void read_color_float(const Rect& rect, float* out);
+  void read_color_float(const Rect& rect, float* out, ColorPlane plane = kBackPlane);
   // Depth as unsigned 24-bit integers, 0 .. 2^24 - 1.
   void read_depth(const Rect& rect, uint32_t* out);
+  void read_stencil(const Rect& rect, uint8_t* out);
 
   const DeviceStatistics& statistics() const;
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "raster/api/draw_state.h"
 
@@ -22,7 +23,13 @@ struct VertexBatch {
   AttributeStream position;
   AttributeStream color;
   AttributeStream tex_coord;  // s, t, r, q
-  uint32_t count = 0;         // vertices; the streams hold elements 0 .. count-1
+  AttributeStream normal;     // x, y, z; read where lighting or texgen calls for it. Default (0, 0, 1)
+  // One byte a vertex: whether the polygon edge that starts there is drawn where the polygon mode is not
+  // fill. Null: all.
+  const uint8_t* edge_flag = nullptr;
+  // A pair of DrawPacket::materials for each vertex. Null: DrawState::lighting.material for all.
+  const uint32_t* material_index = nullptr;
+  uint32_t count = 0;  // vertices; the streams hold elements 0 .. count-1
 };
 
 // indices: null takes the vertices 0, 1, 2 ... index_count - 1 in turn. Every index must be < batch.count.
@@ -33,6 +40,7 @@ struct DrawPacket {
   VertexBatch batch;
   const uint32_t* indices = nullptr;
   uint32_t index_count = 0;
+  std::span<const MaterialPair> materials;
 };
 
 }  // namespace halfspace::raster

@@ -4,6 +4,13 @@
 #include <array>
 #include <memory>
 
+#include "raster/api/clip_plane.h"
+#include "raster/api/fog.h"
+#include "raster/api/lighting.h"
+#include "raster/api/logic_op.h"
+#include "raster/api/shape.h"
+#include "raster/api/stencil.h"
+#include "raster/api/tex_gen.h"
 #include "raster/api/texture.h"
 #include "raster/api/types.h"
 
@@ -63,12 +70,27 @@ struct RasterState {
 struct DrawState {
   // Projection * modelview, column-major, multiplied in double from the float stacks.
   std::array<double, 16> clip_from_object{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  // Modelview, and the inverse transpose of its upper 3x3 (column-major); looked at where lighting, texgen, fog or user
+  // clip planes are on.
+  std::array<double, 16> eye_from_object{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  std::array<double, 9> normal_from_object{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  bool normalize = false;  // GL_NORMALIZE
+  LightingState lighting;
+  TexGenState tex_gen;
+  ClipPlaneState clip_planes;
   Viewport viewport;
   RasterState raster;
+  PointState point;
+  LineState line;
+  PolygonState polygon;
+  FogState fog;
+  StencilState stencil;
   DepthState depth;
   AlphaTestState alpha_test;
   BlendState blend;
+  LogicOpState logic_op;
   ColorMask color_mask;
+  uint8_t color_targets = kBackPlane;  // bits of ColorPlane that are drawn to
   TextureUnitState texture;
   Accuracy accuracy = Accuracy::standard;
 };

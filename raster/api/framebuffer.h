@@ -24,10 +24,11 @@ struct LinearImage {
   bool opaque = false;        // the visual has no alpha: store 1 there
 };
 
-// Colour and 24-bit depth, width x height (1..kMaxSurfaceSize). Contents start undefined (zero).
+// Colour, 24-bit depth, 8-bit stencil and a 16-bit accumulation buffer, width x height (1..kMaxSurfaceSize). Contents
+// start undefined (zero). `planes`: 1, or 2 for a back and a front colour plane over the same depth and stencil.
 class Framebuffer {
  public:
-  Framebuffer(int width, int height, ColorFormat format);
+  Framebuffer(int width, int height, ColorFormat format, int planes = 1);
   ~Framebuffer();
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;

@@ -19,6 +19,8 @@ enum class MipMode : uint8_t { none, nearest, linear };
 enum class BaseFormat : uint8_t { alpha, luminance, luminance_alpha, intensity, rgb, rgba };
 enum class EnvMode : uint8_t { modulate, decal, blend, replace };
 enum class ColorFormat : uint8_t { rgba8, rgba32f };
+// A framebuffer has one colour plane or two; depth, stencil and accumulation serve both.
+enum ColorPlane : uint8_t { kBackPlane = 1, kFrontPlane = 2 };  // a single-buffered one has the first only
 // How exact, against how fast. NUMERICS.md, "What accuracy costs".
 enum class Accuracy : uint8_t { draft, standard, exact };
 

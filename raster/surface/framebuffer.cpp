@@ -65,7 +65,7 @@ void Framebuffer::Impl::settle_depth(size_t tile, uint64_t mask) {
   state.depth_is_clear &= ~mask;
 }
 
-Framebuffer::Framebuffer(int width, int height, ColorFormat format) {
+Framebuffer::Framebuffer(int width, int height, ColorFormat format, int) {
   if (width < 1 || height < 1 || width > kMaxSurfaceSize || height > kMaxSurfaceSize)
     throw std::invalid_argument("framebuffer: width and height must be 1 to 16384");
   impl_ = std::make_unique<Impl>(width, height, format);

@@ -47,10 +47,15 @@ Device::Device(const DeviceOptions&) : impl_(std::make_unique<Impl>()) {}
 Device::~Device() = default;
 void Device::begin_pass(Framebuffer* target) { impl_->target = target; }
 void Device::clear(const ClearCommand&) {}
-void Device::finish(const LinearImage*) {}
-void Device::read_color(const Rect&, uint8_t*) {}
-void Device::read_color_float(const Rect&, float*) {}
+void Device::finish(const LinearImage*, ColorPlane) {}
+void Device::read_color(const Rect&, uint8_t*, ColorPlane) {}
+void Device::read_color_float(const Rect&, float*, ColorPlane) {}
 void Device::read_depth(const Rect&, uint32_t*) {}
+void Device::read_stencil(const Rect&, uint8_t*) {}
+void Device::draw_pixels(const PixelPacket&) {}
+void Device::accumulate(const AccumCommand&) {}
+ShadedPoint Device::shade_point(const DrawState&, const VertexBatch&) { return {}; }
+void Device::feedback(const DrawPacket&, FeedbackSink&) {}
 const DeviceStatistics& Device::statistics() const { return impl_->statistics; }
 
 void Device::draw(const DrawPacket& packet) {
