@@ -414,6 +414,46 @@ HALFSPACE_ENTRY void GLAPIENTRY glEdgeFlag(GLboolean flag) {
   HALFSPACE_CALL(edge_flag, flag);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glIndexs(GLshort c) {
+  HALFSPACE_CALL(index, static_cast<GLfloat>(c));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexsv(const GLshort* c) {
+  HALFSPACE_CALL(index, static_cast<GLfloat>(c[0]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexi(GLint c) {
+  HALFSPACE_CALL(index, static_cast<GLfloat>(c));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexiv(const GLint* c) {
+  HALFSPACE_CALL(index, static_cast<GLfloat>(c[0]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexf(GLfloat c) {
+  HALFSPACE_CALL(index, c);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexfv(const GLfloat* c) {
+  HALFSPACE_CALL(index, c[0]);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexd(GLdouble c) {
+  HALFSPACE_CALL(index, static_cast<GLfloat>(c));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexdv(const GLdouble* c) {
+  HALFSPACE_CALL(index, static_cast<GLfloat>(c[0]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexub(GLubyte c) {
+  HALFSPACE_CALL(index, static_cast<GLfloat>(c));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexubv(const GLubyte* c) {
+  HALFSPACE_CALL(index, static_cast<GLfloat>(c[0]));
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glRects(GLshort x1, GLshort y1, GLshort x2, GLshort y2) {
   HALFSPACE_CALL(rect, static_cast<GLfloat>(x1), static_cast<GLfloat>(y1), static_cast<GLfloat>(x2), static_cast<GLfloat>(y2));
 }
@@ -809,6 +849,10 @@ HALFSPACE_ENTRY void GLAPIENTRY glClearStencil(GLint s) {
 
 HALFSPACE_ENTRY void GLAPIENTRY glClearIndex(GLfloat c) {
   HALFSPACE_CALL(clear_index, c);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexMask(GLuint mask) {
+  HALFSPACE_CALL(index_mask, mask);
 }
 
 HALFSPACE_ENTRY void GLAPIENTRY glDrawBuffer(GLenum buf) {

@@ -115,6 +115,8 @@ void clear_color(Context& context, GLclampf r, GLclampf g, GLclampf b, GLclampf 
 
 void clear_index(Context& context, GLfloat c) { context.color_buffer.clear_index = c; }
 
+void index_mask(Context& context, GLuint mask) { context.color_buffer.index_mask = mask; }
+
 void draw_buffer(Context& context, GLenum mode) {
   const int bits = mode == GL_NONE ? 0 : buffer_bits(mode);
   if (bits == kUnknownBuffer) return record_error(context, GL_INVALID_ENUM);
@@ -163,6 +165,8 @@ std::span<const GetRow> color_buffer_get_rows() {
        }},
       {GL_INDEX_CLEAR_VALUE, GetKind::real, 1,
        [](const Context& c, double* out) { *out = double(c.color_buffer.clear_index); }},
+      {GL_INDEX_WRITEMASK, GetKind::integer, 1,
+       [](const Context& c, double* out) { *out = c.color_buffer.index_mask; }},
       {GL_DRAW_BUFFER, GetKind::enumeration, 1,
        [](const Context& c, double* out) { *out = c.color_buffer.draw_buffer; }},
       {GL_READ_BUFFER, GetKind::enumeration, 1,

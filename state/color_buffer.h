@@ -19,6 +19,7 @@ struct ColorBufferState {
   raster::ColorMask mask;
   raster::Color clear_color;  // in [0, 1]
   float clear_index = 0;
+  GLuint index_mask = ~GLuint{0};  // of colour-index visuals; kept and queried
   GLenum draw_buffer = GL_NONE, read_buffer = GL_NONE;
 };
 

@@ -39,6 +39,8 @@ void tex_coord(Context& context, GLfloat s, GLfloat t, GLfloat r, GLfloat q) {
 
 void edge_flag(Context& context, GLboolean flag) { context.current.edge_flag = flag != GL_FALSE; }
 
+void index(Context& context, GLfloat c) { context.current.index = c; }
+
 }  // namespace op
 
 std::span<const GetRow> current_get_rows() {
@@ -49,6 +51,7 @@ std::span<const GetRow> current_get_rows() {
        [](const Context& c, double* out) { std::copy_n(c.current.tex_coord, 4, out); }},
       {GL_CURRENT_NORMAL, GetKind::normalized, 3,
        [](const Context& c, double* out) { std::copy_n(c.current.normal, 3, out); }},
+      {GL_CURRENT_INDEX, GetKind::real, 1, [](const Context& c, double* out) { *out = double(c.current.index); }},
       {GL_EDGE_FLAG, GetKind::boolean, 1, [](const Context& c, double* out) { *out = c.current.edge_flag; }},
   };
   return kRows;

@@ -10,6 +10,7 @@ struct CurrentState {
   float tex_coord[4] = {0, 0, 0, 1};
   float normal[3] = {0, 0, 1};
   bool edge_flag = true;
+  float index = 1;  // kept and queried; an RGBA visual draws nothing with it
 };
 
 }  // namespace halfspace::state

@@ -177,6 +177,11 @@ void array_element(Context& context, GLint i) {
     fetch_element(arrays.tex_coord, Conversion::plain, index, v);
     tex_coord(context, v[0], v[1], v[2], v[3]);
   }
+  if (usable(arrays.index)) {
+    float v[4] = {};
+    fetch_element(arrays.index, Conversion::plain, index, v);
+    op::index(context, v[0]);
+  }
   if (usable(arrays.color)) {
     float v[4] = {0, 0, 0, 1};
     fetch_element(arrays.color, Conversion::normalized, index, v);

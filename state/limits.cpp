@@ -68,7 +68,6 @@ constexpr GetRow kRows[] = {
     FIXED(GL_RGBA_MODE, boolean, 1),
     FIXED(GL_INDEX_MODE, boolean, 0),
     // initial values
-    FIXED(GL_CURRENT_INDEX, real, 1),
     FIXED_4(GL_CURRENT_RASTER_COLOR, normalized, 1, 1, 1, 1),
     FIXED_4(GL_CURRENT_RASTER_POSITION, real, 0, 0, 0, 1),
     FIXED_4(GL_CURRENT_RASTER_TEXTURE_COORDS, real, 0, 0, 0, 1),
@@ -99,7 +98,6 @@ constexpr GetRow kRows[] = {
     FIXED(GL_STENCIL_PASS_DEPTH_FAIL, enumeration, GL_KEEP),
     FIXED(GL_STENCIL_PASS_DEPTH_PASS, enumeration, GL_KEEP),
     FIXED(GL_STENCIL_WRITEMASK, integer, 0xffffffff),
-    FIXED(GL_INDEX_WRITEMASK, integer, 0xffffffff),
     FIXED_4(GL_ACCUM_CLEAR_VALUE, normalized, 0, 0, 0, 0),
     FIXED(GL_LOGIC_OP_MODE, enumeration, GL_COPY),
     FIXED(GL_RENDER_MODE, enumeration, GL_RENDER),
