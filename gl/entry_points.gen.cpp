@@ -831,6 +831,22 @@ HALFSPACE_ENTRY GLboolean GLAPIENTRY glIsEnabled(GLenum cap) {
   return HALFSPACE_CALL(is_enabled, cap);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glPushAttrib(GLbitfield mask) {
+  HALFSPACE_CALL(push_attrib, mask);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPopAttrib() {
+  HALFSPACE_CALL(pop_attrib);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPushClientAttrib(GLbitfield mask) {
+  HALFSPACE_CALL(push_client_attrib, mask);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPopClientAttrib() {
+  HALFSPACE_CALL(pop_client_attrib);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glClear(GLbitfield mask) {
   HALFSPACE_CALL(clear, mask);
 }

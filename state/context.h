@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "raster/api/device.h"
+#include "state/attribute_stack.h"
 #include "state/capability.h"
 #include "state/color_buffer.h"
 #include "state/current.h"
@@ -54,6 +55,7 @@ struct Context {
   PixelStoreState pixel_store;
   VertexArrayState vertex_array;
   ImmediateState immediate;
+  AttributeStackState attribute_stack;
   DerivedState derived;
 
   raster::Device device;

@@ -36,6 +36,7 @@ struct TextureParameters {
   GLenum wrap_s = GL_REPEAT, wrap_t = GL_REPEAT;
   raster::Color border_color;  // in [0, 1]
   float priority = 1;          // in [0, 1]
+  bool operator==(const TextureParameters&) const = default;
 };
 
 // One texture object. Contexts that share may reach it at the same time: `mutex` guards all that follows it.

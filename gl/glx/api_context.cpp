@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "gl/glx/copy_context.h"
 #include "gl/glx/entry.h"
+#include "state/attribute_stack.h"
 #include "state/operations.gen.h"
 
 using namespace halfspace;
@@ -129,7 +129,8 @@ HALFSPACE_EXPORT void glXCopyContext(Display* display, GLXContext source, GLXCon
     GlxContext* from = Registry::get().find(source);
     GlxContext* to = Registry::get().find(destination);
     // BadAccess, where it is current to someone.
-    if (from && to && from != to && !to->current) copy_attributes(*from->gl, *to->gl, mask);
+    if (from && to && from != to && !to->current)
+      state::copy_attributes(*from->gl, *to->gl, static_cast<GLbitfield>(mask));
     return 0;
   });
 }

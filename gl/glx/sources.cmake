@@ -8,7 +8,6 @@ set(HALFSPACE_GLX_SOURCES
   glx/api_swap.cpp
   glx/choose.cpp
   glx/connection.cpp
-  glx/copy_context.cpp
   glx/copy_pixels.cpp
   glx/current.cpp
   glx/drawable.cpp
