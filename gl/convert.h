@@ -33,6 +33,45 @@ GLenum scalar_pname(GLenum pname) {
   return ((pname == kVectorNames) || ...) ? GLenum{0} : pname;
 }
 
+// glLightiv: colours are normalised, positions and the rest are not (spec 2.14.1). Like material_floats.
+inline std::array<GLfloat, 4> light_floats(GLenum pname, const GLint* params) {
+  std::array<GLfloat, 4> v{};
+  switch (pname) {
+    case GL_AMBIENT:
+    case GL_DIFFUSE:
+    case GL_SPECULAR:
+      for (size_t i = 0; i < 4; ++i) v[i] = normalized(params[i]);
+      break;
+    case GL_POSITION:
+      for (size_t i = 0; i < 4; ++i) v[i] = static_cast<GLfloat>(params[i]);
+      break;
+    case GL_SPOT_DIRECTION:
+      for (size_t i = 0; i < 3; ++i) v[i] = static_cast<GLfloat>(params[i]);
+      break;
+    case GL_SPOT_EXPONENT:
+    case GL_SPOT_CUTOFF:
+    case GL_CONSTANT_ATTENUATION:
+    case GL_LINEAR_ATTENUATION:
+    case GL_QUADRATIC_ATTENUATION:
+      v[0] = static_cast<GLfloat>(params[0]);
+      break;
+    default:
+      break;
+  }
+  return v;
+}
+
+// glLightModeliv, likewise.
+inline std::array<GLfloat, 4> light_model_floats(GLenum pname, const GLint* params) {
+  std::array<GLfloat, 4> v{};
+  if (pname == GL_LIGHT_MODEL_AMBIENT) {
+    for (size_t i = 0; i < 4; ++i) v[i] = normalized(params[i]);
+  } else if (pname == GL_LIGHT_MODEL_LOCAL_VIEWER || pname == GL_LIGHT_MODEL_TWO_SIDE) {
+    v[0] = static_cast<GLfloat>(params[0]);
+  }
+  return v;
+}
+
 // glMaterialiv: colours are normalised, shininess and colour indices are not (spec 2.14.2). Reads as many
 // values as the pname has, and none for a pname that is none.
 inline std::array<GLfloat, 4> material_floats(GLenum pname, const GLint* params) {

@@ -505,6 +505,64 @@ HALFSPACE_ENTRY void GLAPIENTRY glMateriali(GLenum face, GLenum pname, GLint par
   HALFSPACE_CALL(material, face, scalar_pname<GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_EMISSION, GL_AMBIENT_AND_DIFFUSE, GL_COLOR_INDEXES>(pname), &value);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glLightfv(GLenum light, GLenum pname, const GLfloat* params) {
+  HALFSPACE_CALL(light, light, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLightiv(GLenum light, GLenum pname, const GLint* params) {
+  const auto converted = light_floats(pname, params);
+  HALFSPACE_CALL(light, light, pname, converted.data());
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLightf(GLenum light, GLenum pname, GLfloat param) {
+  const GLfloat value = param;
+  HALFSPACE_CALL(light, light, scalar_pname<GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_POSITION, GL_SPOT_DIRECTION>(pname), &value);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLighti(GLenum light, GLenum pname, GLint param) {
+  const GLfloat value = static_cast<GLfloat>(param);
+  HALFSPACE_CALL(light, light, scalar_pname<GL_AMBIENT, GL_DIFFUSE, GL_SPECULAR, GL_POSITION, GL_SPOT_DIRECTION>(pname), &value);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLightModelfv(GLenum pname, const GLfloat* params) {
+  HALFSPACE_CALL(light_model, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLightModeliv(GLenum pname, const GLint* params) {
+  const auto converted = light_model_floats(pname, params);
+  HALFSPACE_CALL(light_model, pname, converted.data());
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLightModelf(GLenum pname, GLfloat param) {
+  const GLfloat value = param;
+  HALFSPACE_CALL(light_model, scalar_pname<GL_LIGHT_MODEL_AMBIENT>(pname), &value);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLightModeli(GLenum pname, GLint param) {
+  const GLfloat value = static_cast<GLfloat>(param);
+  HALFSPACE_CALL(light_model, scalar_pname<GL_LIGHT_MODEL_AMBIENT>(pname), &value);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glColorMaterial(GLenum face, GLenum mode) {
+  HALFSPACE_CALL(color_material, face, mode);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetLightfv(GLenum light, GLenum pname, GLfloat* params) {
+  HALFSPACE_CALL(get_lightfv, light, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetLightiv(GLenum light, GLenum pname, GLint* params) {
+  HALFSPACE_CALL(get_lightiv, light, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetMaterialfv(GLenum face, GLenum pname, GLfloat* params) {
+  HALFSPACE_CALL(get_materialfv, face, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetMaterialiv(GLenum face, GLenum pname, GLint* params) {
+  HALFSPACE_CALL(get_materialiv, face, pname, params);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glVertexPointerEXT(GLint size, GLenum type, GLsizei stride, GLsizei, const GLvoid* pointer) {
   HALFSPACE_CALL(vertex_pointer, size, type, stride, pointer);
 }

@@ -69,6 +69,9 @@ VertexBatch part_of(VertexBatch batch, uint32_t lowest, uint32_t highest) {
   skip_vertices(batch.position, lowest);
   skip_vertices(batch.color, lowest);
   skip_vertices(batch.tex_coord, lowest);
+  skip_vertices(batch.normal, lowest);
+  if (batch.edge_flag != nullptr) batch.edge_flag += lowest;
+  if (batch.material_index != nullptr) batch.material_index += lowest;
   batch.count = highest - lowest + 1;
   return batch;
 }

@@ -28,6 +28,17 @@ constexpr Capability kCapabilities[] = {
     LIVE(GL_SCISSOR_TEST, scissor.test, kDirtyRaster),
     LIVE(GL_TEXTURE_1D, texture.enabled_1d, kDirtyTexture),
     LIVE(GL_TEXTURE_2D, texture.enabled_2d, kDirtyTexture),
+    LIVE(GL_COLOR_MATERIAL, lighting.color_material, kDirtyLighting),
+    LIVE(GL_LIGHT0, lighting.lights[0].enabled, kDirtyLighting),
+    LIVE(GL_LIGHT1, lighting.lights[1].enabled, kDirtyLighting),
+    LIVE(GL_LIGHT2, lighting.lights[2].enabled, kDirtyLighting),
+    LIVE(GL_LIGHT3, lighting.lights[3].enabled, kDirtyLighting),
+    LIVE(GL_LIGHT4, lighting.lights[4].enabled, kDirtyLighting),
+    LIVE(GL_LIGHT5, lighting.lights[5].enabled, kDirtyLighting),
+    LIVE(GL_LIGHT6, lighting.lights[6].enabled, kDirtyLighting),
+    LIVE(GL_LIGHT7, lighting.lights[7].enabled, kDirtyLighting),
+    LIVE(GL_LIGHTING, lighting.enabled, kDirtyLighting | kDirtyTransform),
+    LIVE(GL_NORMALIZE, transform.normalize, kDirtyTransform),
     IDLE(GL_AUTO_NORMAL),
     IDLE(GL_CLIP_PLANE0),
     IDLE(GL_CLIP_PLANE1),
@@ -36,18 +47,8 @@ constexpr Capability kCapabilities[] = {
     IDLE(GL_CLIP_PLANE4),
     IDLE(GL_CLIP_PLANE5),
     IDLE(GL_COLOR_LOGIC_OP),
-    IDLE(GL_COLOR_MATERIAL),
     IDLE(GL_FOG),
     IDLE(GL_INDEX_LOGIC_OP),
-    IDLE(GL_LIGHT0),
-    IDLE(GL_LIGHT1),
-    IDLE(GL_LIGHT2),
-    IDLE(GL_LIGHT3),
-    IDLE(GL_LIGHT4),
-    IDLE(GL_LIGHT5),
-    IDLE(GL_LIGHT6),
-    IDLE(GL_LIGHT7),
-    IDLE(GL_LIGHTING),
     IDLE(GL_LINE_SMOOTH),
     IDLE(GL_LINE_STIPPLE),
     IDLE(GL_MAP1_COLOR_4),
@@ -68,7 +69,6 @@ constexpr Capability kCapabilities[] = {
     IDLE(GL_MAP2_TEXTURE_COORD_4),
     IDLE(GL_MAP2_VERTEX_3),
     IDLE(GL_MAP2_VERTEX_4),
-    IDLE(GL_NORMALIZE),
     IDLE(GL_POINT_SMOOTH),
     IDLE(GL_POLYGON_OFFSET_FILL),
     IDLE(GL_POLYGON_OFFSET_LINE),
@@ -112,6 +112,7 @@ void set_capability(Context& context, GLenum name, bool on, const char* operatio
   }
   bool& bit = *capability->bit(context);
   if (bit == on) return;
+  if (name == GL_COLOR_MATERIAL) settle_color_material(context);  // the material keeps its last colour
   bit = on;
   mark_dirty(context, capability->dirty);
 }

@@ -40,15 +40,16 @@ bool elements_are_readable(VertexArrayState& arrays, const ClientArray& array, s
          is_readable(arrays, base + last * stride + element_bytes(array) - 1);
 }
 
-bool textured(const Context& context) { return context.texture.enabled_1d || context.texture.enabled_2d; }
-
 // Null arrays and elements out of memory: GL leaves open what happens; here nothing is drawn.
-bool arrays_are_readable(Context& context, size_t first, size_t last) {
+bool arrays_are_readable(Context& context, const VertexNeeds& needs, size_t first, size_t last) {
   VertexArrayState& arrays = context.vertex_array;
-  const bool readable = elements_are_readable(arrays, arrays.vertex, first, last) &&
-                        (!arrays.color.enabled || elements_are_readable(arrays, arrays.color, first, last)) &&
-                        (!arrays.tex_coord.enabled || !textured(context) ||
-                         elements_are_readable(arrays, arrays.tex_coord, first, last));
+  const auto readable_if = [&](bool needed, const ClientArray& array) {
+    return !needed || !array.enabled || elements_are_readable(arrays, array, first, last);
+  };
+  const bool readable = readable_if(true, arrays.vertex) && readable_if(true, arrays.color) &&
+                        readable_if(needs.tex_coord, arrays.tex_coord) &&
+                        readable_if(needs.normal, arrays.normal) &&
+                        readable_if(needs.edge_flag, arrays.edge_flag);
   if (!readable && !arrays.bad_memory_reported) {
     arrays.bad_memory_reported = true;
     report(
@@ -60,23 +61,55 @@ bool arrays_are_readable(Context& context, size_t first, size_t last) {
 
 // Fills the batch: `fetch(array, conversion, scratch)` for enabled arrays, the current value for the others.
 template <class Fetch>
-void fill_batch(Context& context, raster::VertexBatch& batch, size_t count, Fetch&& fetch) {
+void fill_batch(Context& context, const VertexNeeds& needs, raster::VertexBatch& batch, size_t count,
+                Fetch&& fetch) {
   VertexArrayState& arrays = context.vertex_array;
   batch.count = uint32_t(count);
   batch.position = fetch(arrays.vertex, Conversion::plain, arrays.position_scratch);
   batch.color = arrays.color.enabled ? fetch(arrays.color, Conversion::normalized, arrays.color_scratch)
                                      : raster::AttributeStream{context.current.color, 0, 4};
-  if (!textured(context)) return;
-  batch.tex_coord = arrays.tex_coord.enabled
-                        ? fetch(arrays.tex_coord, Conversion::plain, arrays.tex_coord_scratch)
-                        : raster::AttributeStream{context.current.tex_coord, 0, 4};
+  if (needs.tex_coord) {
+    batch.tex_coord = arrays.tex_coord.enabled
+                          ? fetch(arrays.tex_coord, Conversion::plain, arrays.tex_coord_scratch)
+                          : raster::AttributeStream{context.current.tex_coord, 0, 4};
+  }
+  if (needs.normal) {
+    batch.normal = arrays.normal.enabled ? fetch(arrays.normal, Conversion::normalized, arrays.normal_scratch)
+                                         : raster::AttributeStream{context.current.normal, 0, 3};
+  }
 }
 
-void fill_batch_range(Context& context, raster::VertexBatch& batch, size_t first, size_t count) {
-  fill_batch(context, batch, count,
+// The edge flags of `count` vertices; place(i) is where in the array vertex i stands.
+template <class Place>
+void fill_edge_flags(Context& context, raster::VertexBatch& batch, size_t count, Place&& place) {
+  VertexArrayState& arrays = context.vertex_array;
+  const ClientArray& array = arrays.edge_flag;
+  if (!array.enabled && context.current.edge_flag) return;  // all edges, as without an array
+  if (arrays.edge_flag_scratch.size() < count) arrays.edge_flag_scratch.resize(count);
+  const auto* flags = static_cast<const GLubyte*>(array.pointer);
+  const size_t stride = stride_bytes(array);
+  for (size_t i = 0; i < count; ++i) {
+    arrays.edge_flag_scratch[i] = array.enabled && flags[place(i) * stride] != GL_FALSE;
+  }
+  batch.edge_flag = arrays.edge_flag_scratch.data();
+}
+
+void fill_batch_range(Context& context, const VertexNeeds& needs, raster::VertexBatch& batch, size_t first,
+                      size_t count) {
+  fill_batch(context, needs, batch, count,
              [=](const ClientArray& array, Conversion conversion, std::vector<float>& scratch) {
                return fetch_range(array, conversion, first, count, scratch);
              });
+  if (needs.edge_flag) fill_edge_flags(context, batch, count, [=](size_t i) { return first + i; });
+}
+
+void fill_batch_indexed(Context& context, const VertexNeeds& needs, raster::VertexBatch& batch,
+                        const uint32_t* indices, size_t count) {
+  fill_batch(context, needs, batch, count,
+             [=](const ClientArray& array, Conversion conversion, std::vector<float>& scratch) {
+               return fetch_indexed(array, conversion, indices, count, scratch);
+             });
+  if (needs.edge_flag) fill_edge_flags(context, batch, count, [=](size_t i) { return size_t{indices[i]}; });
 }
 
 struct IndexRange {
@@ -109,21 +142,19 @@ template <class T>
 void draw_indexed(Context& context, raster::DrawPacket& packet, const T* indices, size_t count) {
   VertexArrayState& arrays = context.vertex_array;
   const IndexRange range = find_range(indices, count);
-  if (!arrays_are_readable(context, range.lowest, range.highest)) return;
+  const VertexNeeds needs = vertex_needs(context, GLenum(packet.primitive));
+  if (!arrays_are_readable(context, needs, range.lowest, range.highest)) return;
   packet.index_count = uint32_t(count);
   if (is_sparse(range, count)) {
     const uint32_t* wide = rebase(arrays, indices, count, 0);
-    fill_batch(context, packet.batch, count,
-               [=](const ClientArray& array, Conversion conversion, std::vector<float>& scratch) {
-                 return fetch_indexed(array, conversion, wide, count, scratch);
-               });
+    fill_batch_indexed(context, needs, packet.batch, wide, count);
     return submit(context, packet);
   }
   // Moving the indices down costs a pass over them; narrow ones are copied anyway. What lies below the lowest
   // index is not worth that when it is little.
   const bool move = sizeof(T) < sizeof(uint32_t) || range.lowest > count / 8;
   const uint32_t base = move ? range.lowest : 0;
-  fill_batch_range(context, packet.batch, base, size_t{range.highest} - base + 1);
+  fill_batch_range(context, needs, packet.batch, base, size_t{range.highest} - base + 1);
   if constexpr (sizeof(T) == sizeof(uint32_t)) {
     packet.indices = move ? rebase(arrays, indices, count, base) : indices;
   } else {
@@ -204,11 +235,12 @@ void draw_arrays(Context& context, GLenum mode, GLint first, GLsizei count) try 
   if (first < 0 || count < 0) return record_error(context, GL_INVALID_VALUE);
   if (!has_work(context, count)) return;
   const size_t start = size_t(first), length = size_t(count);
-  if (!arrays_are_readable(context, start, start + length - 1)) return;
+  const VertexNeeds needs = vertex_needs(context, mode);
+  if (!arrays_are_readable(context, needs, start, start + length - 1)) return;
   raster::DrawPacket packet;
   packet.primitive = primitive_of(mode);
   packet.index_count = uint32_t(length);
-  fill_batch_range(context, packet.batch, start, length);
+  fill_batch_range(context, needs, packet.batch, start, length);
   submit(context, packet);
 } catch (const std::bad_alloc&) {
   record_error(context, GL_OUT_OF_MEMORY, "draw_arrays");

@@ -1,6 +1,7 @@
 #include "state/immediate.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <new>
 #include <utility>
@@ -16,25 +17,39 @@ static_assert(kFirstBatchVertices % 12 == 0 && kMaxBatchVertices % 12 == 0);
 
 // Points the cursor behind `count` vertices at the start of the buffer.
 void set_cursor(ImmediateState& im, uint32_t count) {
-  const size_t capacity = im.buffer.size() / kTexturedVertexFloats;
-  im.cursor = im.buffer.data() + size_t(count) * im.vertex_floats();
-  im.limit = im.buffer.data() + capacity * im.vertex_floats();
+  const size_t capacity = im.buffer.size() / kMaxVertexFloats;
+  im.cursor = im.buffer.data() + size_t(count) * im.format.floats;
+  im.limit = im.buffer.data() + capacity * im.format.floats;
 }
 
-float* vertex_at(ImmediateState& im, uint32_t i) { return im.buffer.data() + size_t(i) * im.vertex_floats(); }
+// Room for what is gathered aside, as much as the buffer has.
+void size_side_arrays(ImmediateState& im) {
+  const size_t capacity = im.buffer.size() / kMaxVertexFloats;
+  if (im.format.edge_flag && im.edge_flags.size() < capacity) im.edge_flags.resize(capacity);
+  if (!im.materials.empty() && im.material_index.size() < capacity) im.material_index.resize(capacity);
+}
+
+float* vertex_at(ImmediateState& im, uint32_t i) { return im.buffer.data() + size_t(i) * im.format.floats; }
 
 void draw_gathered(Context& context, GLenum mode, uint32_t count) {
   if (count == 0) return;
   ImmediateState& im = context.immediate;
   const float* v = im.buffer.data();
-  const size_t stride = im.vertex_floats() * sizeof(float);
+  const size_t stride = im.format.floats * sizeof(float);
   raster::DrawPacket packet;
   packet.state = im.state;
   packet.primitive = primitive_of(mode);
+  packet.continues = im.strip_goes_on;
   packet.index_count = packet.batch.count = count;
   packet.batch.position = {v, stride, 4};
   packet.batch.color = {v + 4, im.color_varies ? stride : 0, 4};
-  if (im.textured) packet.batch.tex_coord = {v + 8, stride, 4};
+  if (im.format.tex_coord) packet.batch.tex_coord = {v + im.format.tex_coord, stride, 4};
+  if (im.format.normal) packet.batch.normal = {v + im.format.normal, stride, 3};
+  if (im.format.edge_flag) packet.batch.edge_flag = im.edge_flags.data();
+  if (!im.materials.empty()) {
+    packet.batch.material_index = im.material_index.data();
+    packet.materials = im.materials;
+  }
   submit(context, packet);
 }
 
@@ -42,34 +57,52 @@ void draw_gathered(Context& context, GLenum mode, uint32_t count) {
 // the centre of a fan, and the last vertices. A full batch is whole points, lines, triangles, quads, and
 // pairs of a strip (its next triangle faces as the first one did), for its length is a multiple of 12.
 struct Kept {
-  bool first;
-  uint32_t last;
+  uint32_t first, last;  // how many
 };
 
 Kept kept_vertices(GLenum mode) {
   switch (mode) {
     case GL_LINE_STRIP:
     case GL_LINE_LOOP:
-      return {false, 1};
+      return {0, 1};
     case GL_TRIANGLE_STRIP:
     case GL_QUAD_STRIP:
-      return {false, 2};
+      return {0, 2};
     case GL_TRIANGLE_FAN:
     case GL_POLYGON:
-      return {true, 1};
+      return {1, 1};
     default:
-      return {false, 0};
+      return {0, 0};
   }
 }
 
 void remember_loop_start(ImmediateState& im) {
   if (im.mode != GL_LINE_LOOP || im.loop_parted) return;
-  std::copy_n(im.buffer.data(), im.vertex_floats(), im.loop_first);
+  std::copy_n(im.buffer.data(), im.format.floats, im.loop_first);
+  if (!im.materials.empty()) im.loop_first_material = im.material_index[0];
   im.loop_parted = true;
 }
 
 // The mode the gathered vertices are drawn with: of a parted loop, a strip.
 GLenum batch_mode(const ImmediateState& im) { return im.loop_parted ? GL_LINE_STRIP : im.mode; }
+
+template <class T>
+void keep_in(std::vector<T>& values, const Kept& kept, uint32_t count) {
+  std::copy_n(values.begin() + (count - kept.last), kept.last, values.begin() + kept.first);
+}
+
+// Forgets the materials that only vertices already drawn had, so that a long primitive does not pile them up.
+void trim_materials(ImmediateState& im, uint32_t kept) {
+  std::array<raster::MaterialPair, 4> pairs;
+  if (im.materials.size() <= pairs.size()) return;
+  for (uint32_t i = 0; i < kept; ++i) {
+    pairs[i] = im.materials[im.material_index[i]];
+    im.material_index[i] = i;
+  }
+  if (im.loop_parted) pairs[2] = im.materials[std::exchange(im.loop_first_material, 2u)];
+  pairs[3] = im.materials.back();  // the one that counts now
+  im.materials.assign(pairs.begin(), pairs.end());
+}
 
 // Draws a full batch, and moves what the next one needs to the buffer's start.
 void part_batch(Context& context) {
@@ -77,19 +110,28 @@ void part_batch(Context& context) {
   const uint32_t count = im.vertex_count();
   const Kept kept = kept_vertices(im.mode);
   remember_loop_start(im);
+  // Where a polygon is parted there is no edge of it: neither the last vertex's now nor the first one's then.
+  const bool parts_edge = im.format.edge_flag && kept.first;
+  const uint8_t last_flag = parts_edge ? std::exchange(im.edge_flags[count - 1], uint8_t{0}) : uint8_t{0};
   draw_gathered(context, batch_mode(im), count);
-  const uint32_t start = kept.first ? 1 : 0;
-  std::memmove(vertex_at(im, start), vertex_at(im, count - kept.last),
-               kept.last * im.vertex_floats() * sizeof(float));
-  set_cursor(im, start + kept.last);
+  std::memmove(vertex_at(im, kept.first), vertex_at(im, count - kept.last),
+               kept.last * im.format.floats * sizeof(float));
+  if (!im.materials.empty()) {
+    keep_in(im.material_index, kept, count);
+    trim_materials(im, kept.first + kept.last);
+  }
+  if (parts_edge) im.edge_flags[0] = 0, im.edge_flags[1] = last_flag;
+  im.strip_goes_on = im.mode == GL_LINE_STRIP || im.mode == GL_LINE_LOOP;
+  set_cursor(im, kept.first + kept.last);
 }
 
 bool grow(ImmediateState& im) try {
-  const size_t capacity = im.buffer.size() / kTexturedVertexFloats;
+  const size_t capacity = im.buffer.size() / kMaxVertexFloats;
   if (capacity >= kMaxBatchVertices) return false;
   const uint32_t count = im.vertex_count();
   const size_t wanted = capacity ? std::min<size_t>(capacity * 4, kMaxBatchVertices) : kFirstBatchVertices;
-  im.buffer.resize(wanted * kTexturedVertexFloats);
+  im.buffer.resize(wanted * kMaxVertexFloats);
+  size_side_arrays(im);
   set_cursor(im, count);
   return true;
 } catch (const std::bad_alloc&) {
@@ -125,19 +167,65 @@ void start_batch(Context& context, GLenum mode) {
   flush_vertices(context);
   im.state = derive(context);
   im.mode = mode;
-  im.textured = context.texture.enabled_1d || context.texture.enabled_2d;
-  im.color_varies = im.loop_parted = false;
+  im.format = vertex_format(context, mode);
+  im.color_varies = im.loop_parted = im.strip_goes_on = false;
+  im.materials.clear();
+  size_side_arrays(im);
 }
 
 void close_loop(Context& context) {
   ImmediateState& im = context.immediate;
   if (!im.loop_parted) return;
   if (im.cursor == im.limit) part_batch(context);
-  std::copy_n(im.loop_first, im.vertex_floats(), im.cursor);
-  im.cursor += im.vertex_floats();
+  if (!im.materials.empty()) im.material_index[im.vertex_count()] = im.loop_first_material;
+  std::copy_n(im.loop_first, im.format.floats, im.cursor);
+  im.cursor += im.format.floats;
+}
+
+// Kept out of op::vertex, whose common path is short.
+[[gnu::noinline]] void gather_rare(Context& context, float* v) {
+  ImmediateState& im = context.immediate;
+  if (im.format.normal) std::memcpy(v + im.format.normal, context.current.normal, 3 * sizeof(float));
+  if (im.format.edge_flag) im.edge_flags[im.vertex_count()] = context.current.edge_flag;
+  if (!im.materials.empty()) im.material_index[im.vertex_count()] = uint32_t(im.materials.size() - 1);
 }
 
 }  // namespace
+
+VertexFormat vertex_format(const Context& context, GLenum mode) {
+  const VertexNeeds needs = vertex_needs(context, mode);
+  VertexFormat format;
+  if (needs.tex_coord) {
+    format.tex_coord = format.floats;
+    format.floats += 4;
+  }
+  if (needs.normal) {
+    format.normal = format.floats;
+    format.floats += 3;
+  }
+  format.edge_flag = needs.edge_flag;
+  format.rare = needs.normal || needs.edge_flag;
+  return format;
+}
+
+void gather_material(Context& context, const raster::MaterialPair& pair) {
+  ImmediateState& im = context.immediate;
+  if (!im.inside || !im.state->lighting.enabled) return;
+  const uint32_t count = im.vertex_count();
+  if (im.materials.empty()) {
+    im.materials.push_back(im.state->lighting.material);
+    size_side_arrays(im);
+    std::fill_n(im.material_index.begin(), count, 0u);
+    im.format.rare = true;
+  }
+  // A pair no vertex has is replaced.
+  const bool used =
+      im.materials.size() == 1 || (count > 0 && im.material_index[count - 1] == im.materials.size() - 1);
+  if (used)
+    im.materials.push_back(pair);
+  else
+    im.materials.back() = pair;
+}
 
 void flush_vertices(Context& context) {
   const uint32_t count = std::exchange(context.immediate.waiting, 0);
@@ -187,8 +275,10 @@ void vertex(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
   v[2] = z;
   v[3] = w;
   std::memcpy(v + 4, context.current.color, 4 * sizeof(float));
-  if (im.textured) std::memcpy(v + 8, context.current.tex_coord, 4 * sizeof(float));
-  im.cursor = v + im.vertex_floats();
+  if (im.format.tex_coord) std::memcpy(v + 8, context.current.tex_coord, 4 * sizeof(float));
+  if (im.format.rare) [[unlikely]]
+    gather_rare(context, v);
+  im.cursor = v + im.format.floats;
 }
 
 // Spec 2.11: a polygon of these four vertices; as a quad it joins its neighbours.

@@ -39,6 +39,7 @@ void polygon_mode(Context& context, GLenum face, GLenum mode) {
   if (!is_face(face) || !known) return record_error(context, GL_INVALID_ENUM);
   if (face != GL_BACK) context.polygon.mode[0] = mode;
   if (face != GL_FRONT) context.polygon.mode[1] = mode;
+  mark_dirty(context, kDirtyRaster);
   report_polygon_mode(mode);
 }
 

@@ -21,6 +21,32 @@ std::array<double, 16> multiply(const double* a, const double* b) {
   return product;
 }
 
+// Cofactors over the determinant. They alone point the right way, so that a matrix which flattens everything,
+// or one so small that its determinant vanishes, still leaves normals that GL_NORMALIZE can use.
+std::array<double, 9> normal_matrix(const Matrix& m) {
+  const auto at = [&m](size_t row, size_t column) { return double(m[4 * column + row]); };
+  std::array<double, 9> cofactors;
+  for (size_t column = 0; column < 3; ++column) {
+    const size_t c1 = (column + 1) % 3, c2 = (column + 2) % 3;
+    for (size_t row = 0; row < 3; ++row) {
+      const size_t r1 = (row + 1) % 3, r2 = (row + 2) % 3;
+      cofactors[3 * column + row] = at(r1, c1) * at(r2, c2) - at(r1, c2) * at(r2, c1);
+    }
+  }
+  const double det = at(0, 0) * cofactors[0] + at(1, 0) * cofactors[1] + at(2, 0) * cofactors[2];
+  std::array<double, 9> inverse;
+  bool usable = true;
+  for (size_t i = 0; i < 9; ++i) {
+    inverse[i] = cofactors[i] / det;
+    usable = usable && std::isfinite(inverse[i]);
+  }
+  if (usable) return inverse;
+  if (det < 0) {
+    for (double& c : cofactors) c = -c;
+  }
+  return cofactors;
+}
+
 namespace {
 
 using DoubleMatrix = std::array<double, 16>;

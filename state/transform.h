@@ -26,10 +26,14 @@ struct MatrixStack {
 
 struct TransformState {
   GLenum mode = GL_MODELVIEW;
+  bool normalize = false;
   MatrixStack<kMaxModelviewDepth> modelview;
   MatrixStack<kMaxProjectionDepth> projection;
   MatrixStack<kMaxTextureDepth> texture;
 };
+
+// The inverse transpose of the upper left 3x3 of `m`, column-major; without an inverse, something finite.
+std::array<double, 9> normal_matrix(const Matrix& m);
 
 // a * b, summed in double.
 std::array<double, 16> multiply(const double* a, const double* b);

@@ -28,7 +28,8 @@ struct VertexArrayState {
   std::array<uintptr_t, 64> readable_pages{};
 
   // Scratch of the draw in flight; kept so that the steady state allocates nothing.
-  std::vector<float> position_scratch, color_scratch, tex_coord_scratch;
+  std::vector<float> position_scratch, color_scratch, tex_coord_scratch, normal_scratch;
+  std::vector<uint8_t> edge_flag_scratch;
   std::vector<uint32_t> index_scratch;
 };
 

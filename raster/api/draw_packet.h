@@ -40,6 +40,8 @@ struct DrawPacket {
   VertexBatch batch;
   const uint32_t* indices = nullptr;
   uint32_t index_count = 0;
+  // A line strip that goes on where the draw before this one ended: the line stipple runs on.
+  bool continues = false;
   std::span<const MaterialPair> materials;
 };
 

@@ -17,7 +17,8 @@ struct Light {
   std::array<double, 4> position{0, 0, 1, 0};  // w == 0: directional
   std::array<double, 3> spot_direction{0, 0, -1};
   float spot_exponent = 0;  // 0 .. 128
-  float spot_cutoff = 180;  // degrees: 0 .. 90, or 180 for no spot
+  float spot_cutoff = 180;   // degrees: 0 .. 90, or 180 for no spot
+  double spot_cosine = -1;   // of the cutoff
   float constant_attenuation = 1, linear_attenuation = 0, quadratic_attenuation = 0;
 };
 

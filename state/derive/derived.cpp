@@ -74,9 +74,15 @@ std::array<double, 16> widen(const Matrix& m) {
   return wide;
 }
 
+// Normals are used by lighting.
+bool needs_normals(const Context& context) { return context.lighting.enabled; }
+
 void derive_transform(const Context& context, DrawState& out) {
   const TransformState& t = context.transform;
-  out.clip_from_object = multiply(widen(t.projection.top()).data(), widen(t.modelview.top()).data());
+  out.eye_from_object = widen(t.modelview.top());
+  out.clip_from_object = multiply(widen(t.projection.top()).data(), out.eye_from_object.data());
+  out.normalize = t.normalize;
+  if (needs_normals(context)) out.normal_from_object = normal_matrix(t.modelview.top());
 }
 
 void derive_viewport(const Context& context, DrawState& out) {
@@ -92,6 +98,29 @@ void derive_raster(const Context& context, DrawState& out) {
   out.raster.flat_shading = context.lighting.shade_model == GL_FLAT;
   out.raster.scissor_test = context.scissor.test;
   out.raster.scissor = context.scissor.rect();
+}
+
+void derive_color_material(const LightingState& lighting, raster::LightingState& out) {
+  const GLenum mode = lighting.color_material_mode;
+  const bool both = mode == GL_AMBIENT_AND_DIFFUSE;
+  const raster::LightingState::ColorMaterial tracked{both || mode == GL_AMBIENT, both || mode == GL_DIFFUSE,
+                                                     mode == GL_SPECULAR, mode == GL_EMISSION};
+  out.color_material_front = out.color_material_back = {};
+  if (!lighting.color_material) return;
+  if (lighting.color_material_face != GL_BACK) out.color_material_front = tracked;
+  if (lighting.color_material_face != GL_FRONT) out.color_material_back = tracked;
+}
+
+void derive_lighting(const Context& context, DrawState& out) {
+  const LightingState& lighting = context.lighting;
+  out.lighting.enabled = lighting.enabled;
+  if (!lighting.enabled) return;
+  out.lighting.local_viewer = lighting.local_viewer;
+  out.lighting.two_sided = lighting.two_side;
+  out.lighting.model_ambient = lighting.model_ambient;
+  out.lighting.lights = lighting.lights;
+  out.lighting.material = material_pair(lighting);
+  derive_color_material(lighting, out.lighting);
 }
 
 void derive_fragment(const Context& context, DrawState& out) {
@@ -121,6 +150,16 @@ void mark_dirty(Context& context, uint32_t bits) { context.derived.dirty |= bits
 
 raster::Primitive primitive_of(GLenum mode) { return Primitive(mode); }
 
+// Edge flags count for separate triangles, quads and polygons only (spec 2.6.2).
+bool has_edge_flags(GLenum mode) { return mode == GL_TRIANGLES || mode == GL_QUADS || mode == GL_POLYGON; }
+
+VertexNeeds vertex_needs(const Context& context, GLenum mode) {
+  const PolygonState& polygon = context.polygon;
+  const bool textured = context.texture.enabled_1d || context.texture.enabled_2d;
+  const bool outlined = polygon.mode[0] != GL_FILL || polygon.mode[1] != GL_FILL;
+  return {textured, needs_normals(context), outlined && has_edge_flags(mode)};
+}
+
 const std::shared_ptr<const DrawState>& derive(Context& context) {
   DerivedState& derived = context.derived;
   // Textures also change behind the context's back, by another one that shares them.
@@ -131,6 +170,7 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   if (derived.dirty & kDirtyTransform) derive_transform(context, *next);
   if (derived.dirty & kDirtyViewport) derive_viewport(context, *next);
   if (derived.dirty & kDirtyRaster) derive_raster(context, *next);
+  if (derived.dirty & kDirtyLighting) derive_lighting(context, *next);
   if (derived.dirty & kDirtyFragment) derive_fragment(context, *next);
   if (derived.dirty & kDirtyTexture) derive_texture(context, *next);
   next->accuracy = derived.accuracy;

@@ -19,7 +19,8 @@ enum DirtyBits : uint32_t {
   kDirtyRaster = 4,     // culling, shade model, scissor
   kDirtyFragment = 8,   // alpha test, depth, blend, colour mask
   kDirtyTexture = 16,   // texture enables, bindings, objects, environment, texture matrix
-  kDirtyAll = 31,
+  kDirtyLighting = 32,  // lights, materials, light model, colour material
+  kDirtyAll = 63,
 };
 
 struct DerivedState {
@@ -34,6 +35,12 @@ void mark_dirty(Context& context, uint32_t bits);
 
 // The draw state of the context as it is now. A draw keeps a reference; the next change makes a new one.
 const std::shared_ptr<const raster::DrawState>& derive(Context& context);
+
+// Which attributes beside position and colour vertices of `mode` need under the state as it is.
+struct VertexNeeds {
+  bool tex_coord, normal, edge_flag;
+};
+VertexNeeds vertex_needs(const Context& context, GLenum mode);
 
 // HALFSPACE_ACCURACY; standard, with a message, when it says nothing known.
 raster::Accuracy accuracy_from_environment();

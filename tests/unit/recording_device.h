@@ -13,6 +13,9 @@ namespace halfspace::raster {
 
 struct RecordedVertex {
   std::array<float, 4> position, color, tex_coord;
+  std::array<float, 4> normal{0, 0, 1, 1};
+  bool edge_flag = true;
+  Material material{};  // front
   bool operator==(const RecordedVertex&) const = default;
 };
 
@@ -21,7 +24,7 @@ struct RecordedDraw {
   std::shared_ptr<const DrawState> state;
   Primitive primitive;
   uint32_t batch_count;
-  bool constant_color, has_tex_coord;
+  bool constant_color, has_tex_coord, has_normal, has_edge_flags, continues;
   const void* position_data;
   std::vector<RecordedVertex> vertices;  // in drawing order
 };
@@ -64,10 +67,17 @@ void Device::draw(const DrawPacket& packet) {
     throw std::bad_alloc();
   }
   const VertexBatch& batch = packet.batch;
-  RecordedDraw draw{impl_->target,       packet.state,
-                    packet.primitive,    batch.count,
-                    !batch.color.stride, batch.tex_coord.data != nullptr,
-                    batch.position.data, {}};
+  RecordedDraw draw{impl_->target,
+                    packet.state,
+                    packet.primitive,
+                    batch.count,
+                    !batch.color.stride,
+                    batch.tex_coord.data != nullptr,
+                    batch.normal.data != nullptr,
+                    batch.edge_flag != nullptr,
+                    packet.continues,
+                    batch.position.data,
+                    {}};
   for (uint32_t i = 0; i < packet.index_count; ++i) {
     const uint32_t index = packet.indices ? packet.indices[i] : i;
     if (index >= batch.count) std::abort();  // the contract: every index below the batch's count
@@ -75,7 +85,11 @@ void Device::draw(const DrawPacket& packet) {
                              read_attribute(batch.color, index,
                                             batch.color.data ? std::array<float, 4>{0, 0, 0, 1}
                                                              : std::array<float, 4>{1, 1, 1, 1}),
-                             read_attribute(batch.tex_coord, index, {0, 0, 0, 1})});
+                             read_attribute(batch.tex_coord, index, {0, 0, 0, 1}),
+                             read_attribute(batch.normal, index, {0, 0, 1, 1}),
+                             !batch.edge_flag || batch.edge_flag[index],
+                             batch.material_index ? packet.materials[batch.material_index[index]].front
+                                                  : packet.state->lighting.material.front});
   }
   recorded_draws.push_back(std::move(draw));
 }

@@ -312,5 +312,50 @@ TEST_F(ArrayTest, PointersAreReadBack) {
   }
 }
 
+// Normals and edge flags come where the state calls for them, from the array or from the current value.
+TEST_F(ArrayTest, NormalsAndEdgeFlags) {
+  const auto positions = numbered(3000);
+  std::vector<GLbyte> normals(3 * 3000);
+  std::vector<GLubyte> flags(2 * 3000);  // every other byte
+  for (size_t i = 0; i < 3000; ++i) {
+    normals[3 * i + 2] = GLbyte(i % 100);
+    flags[2 * i] = i % 3 == 1 ? 7 : 0;
+    flags[2 * i + 1] = 1;
+  }
+  use_positions(positions);
+  op::normal_pointer(*context, GL_BYTE, 0, normals.data());
+  op::edge_flag_pointer(*context, 2, flags.data());
+  const GLushort near_indices[] = {5, 4, 7}, far_indices[] = {5, 2999, 4};
+  for (bool arrays : {false, true}) {
+    for (GLenum name : {GL_NORMAL_ARRAY, GL_EDGE_FLAG_ARRAY}) {
+      (arrays ? op::enable_client_state : op::disable_client_state)(*context, name);
+    }
+    for (GLboolean flag : {GLboolean{1}, GLboolean{0}}) {
+      for (bool wanted : {false, true}) {
+        (wanted ? op::enable : op::disable)(*context, GL_LIGHTING);
+        op::polygon_mode(*context, GL_FRONT, wanted ? GL_POINT : GL_FILL);
+        op::normal(*context, 1, 2, 3);
+        op::edge_flag(*context, flag);
+        recorded_draws.clear();
+        op::draw_arrays(*context, GL_TRIANGLES, 4, 3);
+        op::draw_elements(*context, GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, near_indices);
+        op::draw_elements(*context, GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, far_indices);
+        ASSERT_EQ(recorded_draws.size(), 3u);
+        for (const auto& draw : recorded_draws) {
+          EXPECT_EQ(draw.has_normal, wanted);
+          for (const auto& v : draw.vertices) {
+            if (!wanted) continue;
+            const auto i = size_t(v.position[0]);
+            const float z = float(2 * int(i % 100) + 1) / 255.0f, zero = 1 / 255.0f;
+            const std::array<float, 4> current{1, 2, 3, 1}, element{zero, zero, z, 1};
+            EXPECT_EQ(v.normal, arrays ? element : current);
+            EXPECT_EQ(v.edge_flag, arrays ? i % 3 == 1 : flag != 0);
+          }
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::state

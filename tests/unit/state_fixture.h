@@ -63,6 +63,14 @@ inline Snapshot take_snapshot(const Context& context) {
     values.resize(row.count);
     snapshot.rows[row.name] = values;
   }
+  // Lights have no rows of their own.
+  for (int i = 0; i < raster::kMaxLights; ++i) {
+    for (GLenum pname = GL_AMBIENT; pname <= GL_QUADRATIC_ATTENUATION; ++pname) {
+      float values[4] = {};
+      op::get_lightfv(const_cast<Context&>(context), GL_LIGHT0 + GLenum(i), pname, values);
+      snapshot.rows[GLenum(i) << 16 | pname].assign(values, values + 4);
+    }
+  }
   snapshot.material = {context.lighting.material[0], context.lighting.material[1]};
   const VertexArrayState& arrays = context.vertex_array;
   for (const ClientArray* a :

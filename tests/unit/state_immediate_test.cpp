@@ -179,6 +179,122 @@ TEST_F(ImmediateTest, AColourThatNeverChangesIsConstant) {
   EXPECT_EQ(context->current.color[0], 0);
 }
 
+void set_shininess(Context& context, float shininess) {
+  op::material(context, GL_FRONT_AND_BACK, GL_SHININESS, &shininess);
+}
+
+TEST_F(ImmediateTest, NormalsComeWithLighting) {
+  for (bool textured : {false, true}) {
+    recorded_draws.clear();
+    (textured ? op::enable : op::disable)(*context, GL_TEXTURE_2D);
+    op::enable(*context, GL_LIGHTING);
+    op::tex_coord(*context, 5, 6, 7, 8);
+    op::begin(*context, GL_TRIANGLES);
+    for (int i = 0; i < 3; ++i) {
+      op::normal(*context, float(i), 2, -3);
+      op::color(*context, 0, float(i), 0, 1);
+      op::vertex(*context, float(i), 1, 0, 1);
+    }
+    end();
+    op::disable(*context, GL_LIGHTING);
+    rect(0, 0, 1, 1);
+    ASSERT_EQ(recorded_draws.size(), 2u);
+    EXPECT_TRUE(recorded_draws[0].has_normal);
+    EXPECT_EQ(recorded_draws[0].has_tex_coord, textured);
+    EXPECT_FALSE(recorded_draws[1].has_normal);
+    for (size_t i = 0; i < 3; ++i) {
+      const Corner& v = recorded_draws[0].vertices[i];
+      EXPECT_EQ(v.normal, (std::array<float, 4>{float(i), 2, -3, 1}));
+      EXPECT_EQ(v.color, (std::array<float, 4>{0, float(i), 0, 1}));
+      EXPECT_EQ(v.tex_coord,
+                textured ? (std::array<float, 4>{5, 6, 7, 8}) : (std::array<float, 4>{0, 0, 0, 1}));
+    }
+  }
+}
+
+TEST_F(ImmediateTest, EdgeFlagsComeWithPolygonModes) {
+  for (GLenum mode = GL_POINTS; mode <= GL_POLYGON; ++mode) {
+    recorded_draws.clear();
+    op::polygon_mode(*context, GL_BACK, GL_LINE);
+    op::begin(*context, mode);
+    for (int i = 0; i < 12; ++i) {
+      op::edge_flag(*context, i % 3 == 1);
+      op::vertex(*context, float(i), 1, 0, 1);
+    }
+    end();
+    ASSERT_EQ(recorded_draws.size(), 1u);
+    const bool counts = mode == GL_TRIANGLES || mode == GL_QUADS || mode == GL_POLYGON;
+    EXPECT_EQ(recorded_draws[0].has_edge_flags, counts) << mode;
+    for (size_t i = 0; i < 12; ++i) EXPECT_EQ(recorded_draws[0].vertices[i].edge_flag, !counts || i % 3 == 1);
+    op::polygon_mode(*context, GL_BACK, GL_FILL);
+    rect(0, 0, 1, 1);
+    EXPECT_FALSE(recorded_draws[1].has_edge_flags);
+  }
+}
+
+TEST_F(ImmediateTest, APartedPolygonHasNoEdgeAtTheSeam) {
+  op::polygon_mode(*context, GL_FRONT, GL_LINE);
+  const size_t count = kMaxBatchVertices + 1000;
+  op::begin(*context, GL_POLYGON);
+  for (size_t i = 0; i < count; ++i) op::vertex(*context, float(i), 1, 0, 1);
+  end();
+  // The edges drawn, each from the vertex that bears the flag to the next one of its part.
+  std::vector<std::pair<float, float>> edges;
+  for (const RecordedDraw& draw : recorded_draws) {
+    const auto& v = draw.vertices;
+    for (size_t i = 0; i < v.size(); ++i) {
+      if (v[i].edge_flag) edges.emplace_back(v[i].position[0], v[(i + 1) % v.size()].position[0]);
+    }
+  }
+  EXPECT_EQ(recorded_draws.size(), 2u);
+  ASSERT_EQ(edges.size(), count);
+  for (size_t i = 0; i < count; ++i) EXPECT_EQ(edges[i], std::pair(float(i), float((i + 1) % count)));
+}
+
+TEST_F(ImmediateTest, MaterialsSetBetweenBeginAndEndBelongToTheVerticesAfter) {
+  op::enable(*context, GL_LIGHTING);
+  set_shininess(*context, 1);
+  op::begin(*context, GL_TRIANGLES);
+  for (int i = 0; i < 6; ++i) {
+    if (i >= 2) set_shininess(*context, 100);  // replaced before any vertex has it
+    if (i >= 2) set_shininess(*context, float(2 + i / 2));
+    op::vertex(*context, float(i), 0, 0, 1);
+  }
+  end();
+  rect(0, 0, 1, 1);
+  ASSERT_EQ(recorded_draws.size(), 2u);
+  const float expected[] = {1, 1, 3, 3, 4, 4};
+  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(recorded_draws[0].vertices[i].material.shininess, expected[i]);
+  EXPECT_EQ(recorded_draws[1].vertices[0].material.shininess, 4);
+}
+
+TEST_F(ImmediateTest, MaterialsOutliveTheParting) {
+  op::enable(*context, GL_LIGHTING);
+  const size_t count = kMaxBatchVertices * 2 + 7;
+  std::vector<Corner> corners(count);
+  for (size_t i = 0; i < count; ++i) {
+    corners[i].position = {float(i), 0, 0, 1};
+    corners[i].color = {1, 1, 1, 1};
+    corners[i].tex_coord = {0, 0, 0, 1};
+    corners[i].material.shininess = float(i % 100);
+  }
+  for (GLenum mode = GL_POINTS; mode <= GL_POLYGON; ++mode) {
+    recorded_draws.clear();
+    set_shininess(*context, 128);
+    op::begin(*context, mode);
+    for (const Corner& c : corners) {
+      set_shininess(*context, c.material.shininess);
+      op::vertex(*context, c.position[0], 0, 0, 1);
+    }
+    end();
+    EXPECT_GT(recorded_draws.size(), 1u);
+    for (size_t i = 0; i < recorded_draws.size(); ++i) {
+      EXPECT_EQ(recorded_draws[i].continues, i > 0 && (mode == GL_LINE_STRIP || mode == GL_LINE_LOOP));
+    }
+    EXPECT_TRUE(decompose_recorded() == decompose(mode, corners)) << mode;
+  }
+}
+
 TEST_F(ImmediateTest, NothingIsDrawnWithoutVerticesOrOutside) {
   op::begin(*context, GL_TRIANGLES);
   end();
