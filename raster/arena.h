@@ -35,7 +35,7 @@ class Arena {
   }
 
  private:
-  static constexpr size_t kBufferBytes = size_t{1} << 20;
+  static constexpr size_t kBufferBytes = size_t{1} << 18;
   static constexpr size_t kLargestKept = size_t{8} << 20;
   std::vector<PageBuffer> buffers_;
   size_t at_ = 0, used_ = 0, total_ = 0;

@@ -21,10 +21,10 @@ namespace halfspace::raster {
 namespace {
 
 // Work kept back before it is executed, so that memory stays bounded whatever a frame draws.
-constexpr size_t kMaxPendingBytes = size_t{2} << 20;  // shaded vertices
-constexpr size_t kMaxPendingPrimitives = size_t{1} << 15;
-constexpr uint32_t kPartPrimitives = 16384;   // a larger draw is taken in parts
-constexpr uint32_t kParallelPrimitives = 4096;  // a part of fewer is not split over threads
+constexpr size_t kMaxPendingBytes = size_t{1} << 18;  // shaded vertices
+constexpr size_t kMaxPendingPrimitives = size_t{1} << 13;
+constexpr uint32_t kPartPrimitives = 4096;   // a larger draw is taken in parts
+constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
 constexpr uint32_t kVerticesPerTask = 2048;
 
 int thread_count(const DeviceOptions& options) {
