@@ -1,9 +1,10 @@
 // Vectors and the group of lanes a stage works on. Compiled once per ISA level, inside its namespace.
 //
-// A group is kLanes neighbouring pixels of one row of the block (a whole row of 8, or a part of it on narrower
-// machines), so a value at a pixel never depends on how wide the machine is.
+// A group is kLanes neighbouring pixels of the block: two rows of 8, one, or a part of one on narrower machines. A value
+// at a pixel never depends on which.
 
-using DF = hn::CappedTag<float, 8>;
+inline constexpr int kMaxLanes = 16;
+using DF = hn::CappedTag<float, kMaxLanes>;
 using DI = hn::RebindToSigned<DF>;
 using DU = hn::RebindToUnsigned<DF>;
 using VF = hn::Vec<DF>;
@@ -12,7 +13,7 @@ using VU = hn::Vec<DU>;
 using MF = hn::Mask<DF>;
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(DF()));
 
-// Doubles of a group come in one or two vectors.
+// Doubles of a group come in one vector or two, each within one row.
 using DD = hn::CappedTag<double, 8>;
 inline constexpr int kDoubleLanes = static_cast<int>(hn::MaxLanes(DD()));
 inline constexpr int kDoubleParts = kLanes / kDoubleLanes;
@@ -36,7 +37,9 @@ HWY_INLINE hn::Vec<To> DemoteGroup(To d, const VD& v) {
 // Towards zero, for values an int32 can hold; anything else gives some int32. Highway's ConvertTo saturates, which takes
 // four instructions more.
 HWY_INLINE VI TruncateInRange(VF v) {
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+#if HWY_TARGET == HWY_AVX3
+  return VI{_mm512_cvttps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_AVX2
   return VI{_mm256_cvttps_epi32(v.raw)};
 #elif HWY_TARGET == HWY_SSE4
   return VI{_mm_cvttps_epi32(v.raw)};
@@ -63,8 +66,12 @@ HWY_INLINE MF MaskFromBits(uint64_t group) {
 #if HWY_TARGET == HWY_SCALAR
   return hn::MaskFromVec(hn::BitCast(DF(), hn::Set(DU(), group != 0 ? ~0u : 0u)));
 #else
+#if HWY_TARGET == HWY_AVX3
+  return MF{static_cast<__mmask16>(group)};
+#else
   const auto bits = static_cast<uint8_t>(group);
   return hn::LoadMaskBits(DF(), &bits);
+#endif
 #endif
 }
 
@@ -74,7 +81,7 @@ HWY_INLINE unsigned MaskBits(MF mask) {
 #else
   uint8_t bits[8] = {};
   hn::StoreMaskBits(DF(), mask, bits);
-  return bits[0] & static_cast<unsigned>(kGroupBits);
+  return (bits[0] | unsigned{bits[1]} << 8) & static_cast<unsigned>(kGroupBits);
 #endif
 }
 
@@ -93,7 +100,8 @@ HWY_INLINE auto Compare(V a, V b) {
 // --- Planes at the pixels of a block: (f0 + dfdy * dy) + dfdx * dx, always in this order. What is the same for all rows
 // is worked out once a block; the compiler could not tell, since rows write to memory.
 
-inline constexpr int kGroupsPerRow = kBlockSize / kLanes;
+inline constexpr int kGroupsPerRow = kLanes < kBlockSize ? kBlockSize / kLanes : 1;
+inline constexpr int kRowsPerGroup = kLanes > kBlockSize ? kLanes / kBlockSize : 1;
 
 struct BlockPlane {
   VF across[kGroupsPerRow];  // dfdx * dx
@@ -106,15 +114,34 @@ struct BlockPlane {
     dy = static_cast<float>(c.dy);
     const VF dfdx = hn::Set(d, s.dfdx_f[plane][c.lane]);
     for (int g = 0; g < kGroupsPerRow; ++g)
-      across[g] = hn::Mul(dfdx, hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<float>(c.dx) + static_cast<float>(g * kLanes))));
+      across[g] = hn::Mul(dfdx, hn::Add(Column(), hn::Set(d, static_cast<float>(c.dx) + static_cast<float>(g * kLanes))));
   }
   HWY_INLINE VF At(int i) const {
-    const float row = f0 + dfdy * (dy + static_cast<float>(i / kBlockSize));
-    return hn::Add(hn::Set(DF(), row), across[i % kBlockSize / kLanes]);
+    const DF d;
+    if constexpr (kRowsPerGroup == 1) {
+      const float row = f0 + dfdy * (dy + static_cast<float>(i / kBlockSize));
+      return hn::Add(hn::Set(d, row), across[i % kBlockSize / kLanes]);
+    } else {
+      const VF y = hn::Add(hn::Set(d, dy), hn::Add(hn::Set(d, static_cast<float>(i / kBlockSize)), Row()));
+      return hn::Add(hn::Add(hn::Set(d, f0), hn::Mul(hn::Set(d, dfdy), y)), across[0]);
+    }
+  }
+
+ private:
+  // Of each lane: the pixel's column in the row, and its row in the group.
+  static HWY_INLINE VF Column() {
+    const VF lane = hn::Iota(DF(), 0);
+    return kRowsPerGroup == 1 ? lane : hn::Sub(lane, hn::Mul(Row(), hn::Set(DF(), static_cast<float>(kBlockSize))));
+  }
+  static HWY_INLINE VF Row() {
+    const DF d;
+    const VF lane = hn::Iota(d, 0);
+    return hn::IfThenElseZero(hn::Ge(lane, hn::Set(d, static_cast<float>(kBlockSize))), hn::Set(d, 1.0f));
   }
 };
 
 struct BlockPlaneDouble {
+  static constexpr int kParts = kRowsPerGroup == 1 ? kDoubleParts : kDoubleParts / kRowsPerGroup;  // of a row
   VD across[kGroupsPerRow];
   double f0, dfdy, dy;
   HWY_INLINE BlockPlaneDouble(const BlockContext& c, int plane) {
@@ -125,14 +152,15 @@ struct BlockPlaneDouble {
     dy = c.dy;
     const auto dfdx = hn::Set(d, s.dfdx[plane][c.lane]);
     for (int g = 0; g < kGroupsPerRow; ++g)
-      for (int p = 0; p < kDoubleParts; ++p)
+      for (int p = 0; p < kParts; ++p)
         across[g].part[p] = hn::Mul(dfdx, hn::Add(hn::Iota(d, 0), hn::Set(d, c.dx + (g * kLanes + p * kDoubleLanes))));
   }
   HWY_INLINE VD At(int i) const {
-    const double row = f0 + dfdy * (dy + i / kBlockSize);
     VD v;
-    for (int p = 0; p < kDoubleParts; ++p)
-      v.part[p] = hn::Add(hn::Set(DD(), row), across[i % kBlockSize / kLanes].part[p]);
+    for (int p = 0; p < kDoubleParts; ++p) {
+      const double row = f0 + dfdy * (dy + (i / kBlockSize + p / kParts));
+      v.part[p] = hn::Add(hn::Set(DD(), row), across[kGroupsPerRow == 1 ? 0 : i % kBlockSize / kLanes].part[p % kParts]);
+    }
     return v;
   }
 };
@@ -176,7 +204,7 @@ struct PackedLanes {
     return PackedPlane(c, c.params->color_plane + channel).At(i);
   }
   static HWY_INLINE void StoreRgba8(const BlockContext& c, int i, VI packed, MF) {
-    alignas(64) int32_t pixels[8];
+    alignas(64) int32_t pixels[kMaxLanes];
     hn::Store(packed, DI(), pixels);
     const int32_t* offset = c.queue->offset + i;
     const int left = c.queue->count - i;

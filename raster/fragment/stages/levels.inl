@@ -2,12 +2,12 @@
 
 // A level per lane: what differs between the lanes of a group is gathered here by plain loads.
 struct LaneLevels {
-  alignas(64) float width[8], height[8];
-  alignas(64) int32_t width_i[8], height_i[8], pitch[8];
-  const uint32_t* texels[8];
+  alignas(64) float width[kMaxLanes], height[kMaxLanes];
+  alignas(64) int32_t width_i[kMaxLanes], height_i[kMaxLanes], pitch[kMaxLanes];
+  const uint32_t* texels[kMaxLanes];
 
   HWY_INLINE LaneLevels(const FragmentParams& params, VI level) {
-    alignas(64) int32_t index[8];
+    alignas(64) int32_t index[kMaxLanes];
     hn::Store(level, DI(), index);
     for (int j = 0; j < kLanes; ++j) {
       const LevelRef& l = params.levels[index[j]];
@@ -77,8 +77,8 @@ struct SampleLevels {
     const DI di;
     const VF u = NearestTexel(v.slot[kS], hn::Load(d, l.width), p.sampler.wrap_s);
     const VF t = NearestTexel(v.slot[kT], hn::Load(d, l.height), p.sampler.wrap_t);
-    alignas(64) int32_t x[8], y[8];
-    alignas(64) uint32_t texels[8];
+    alignas(64) int32_t x[kMaxLanes], y[kMaxLanes];
+    alignas(64) uint32_t texels[kMaxLanes];
     hn::Store(TexelIndex(u, hn::Load(di, l.width_i), 0), di, x);
     hn::Store(TexelIndex(t, hn::Load(di, l.height_i), 0), di, y);
     for (int j = 0; j < kLanes; ++j) texels[j] = l.texels[j][(y[j] + 1) * l.pitch[j] + x[j] + 1];
@@ -91,10 +91,10 @@ struct SampleLevels {
     const VF u = TexelCoord(v.slot[kS], hn::Load(d, l.width), p.sampler.wrap_s, 0.5f);
     const VF t = TexelCoord(v.slot[kT], hn::Load(d, l.height), p.sampler.wrap_t, 0.5f);
     const VF u0 = hn::Floor(u), t0 = hn::Floor(t);
-    alignas(64) int32_t x[8], y[8];
+    alignas(64) int32_t x[kMaxLanes], y[kMaxLanes];
     hn::Store(TexelIndex(u0, hn::Load(di, l.width_i), -1), di, x);
     hn::Store(TexelIndex(t0, hn::Load(di, l.height_i), -1), di, y);
-    const uint32_t* low[8];
+    const uint32_t* low[kMaxLanes];
     for (int j = 0; j < kLanes; ++j) low[j] = l.texels[j] + (y[j] + 1) * l.pitch[j] + x[j] + 1;
     Bilinear([&](int j) HWY_ATTR { return low[j]; }, [&](int j) HWY_ATTR { return low[j] + l.pitch[j]; },
              hn::Sub(u, u0), hn::Sub(t, t0), false, v);

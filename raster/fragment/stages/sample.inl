@@ -50,15 +50,32 @@ HWY_INLINE __m128i LoadTwoPairs(const uint32_t* a, const uint32_t* b) {
   const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(a));
   return _mm_castps_si128(_mm_loadh_pi(_mm_castsi128_ps(low), reinterpret_cast<const __m64*>(b)));
 }
+// Pairs of the lanes j, j + 1, j + 4 and j + 5.
+template <class Address>
+HWY_INLINE __m256i LoadFourPairs(Address texel, int j) {
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(LoadTwoPairs(texel(j), texel(j + 1))),
+                                 LoadTwoPairs(texel(j + 4), texel(j + 5)), 1);
+}
+#if HWY_TARGET == HWY_AVX2
 template <class Address>
 HWY_INLINE TexelPairs LoadPairs(Address texel) {
-  const __m256 even = _mm256_castsi256_ps(
-      _mm256_inserti128_si256(_mm256_castsi128_si256(LoadTwoPairs(texel(0), texel(1))), LoadTwoPairs(texel(4), texel(5)), 1));
-  const __m256 odd = _mm256_castsi256_ps(
-      _mm256_inserti128_si256(_mm256_castsi128_si256(LoadTwoPairs(texel(2), texel(3))), LoadTwoPairs(texel(6), texel(7)), 1));
+  const __m256 even = _mm256_castsi256_ps(LoadFourPairs(texel, 0)), odd = _mm256_castsi256_ps(LoadFourPairs(texel, 2));
   return {VU{_mm256_castps_si256(_mm256_shuffle_ps(even, odd, 0x88))},
           VU{_mm256_castps_si256(_mm256_shuffle_ps(even, odd, 0xdd))}};
 }
+#else
+template <class Address>
+HWY_INLINE __m512 LoadEightPairs(Address texel, int j) {
+  return _mm512_castsi512_ps(
+      _mm512_inserti64x4(_mm512_castsi256_si512(LoadFourPairs(texel, j)), LoadFourPairs(texel, j + 8), 1));
+}
+template <class Address>
+HWY_INLINE TexelPairs LoadPairs(Address texel) {
+  const __m512 even = LoadEightPairs(texel, 0), odd = LoadEightPairs(texel, 2);
+  return {VU{_mm512_castps_si512(_mm512_shuffle_ps(even, odd, 0x88))},
+          VU{_mm512_castps_si512(_mm512_shuffle_ps(even, odd, 0xdd))}};
+}
+#endif
 #elif HWY_TARGET == HWY_SSE4
 HWY_INLINE __m128 LoadTwoPairs(const uint32_t* a, const uint32_t* b) {
   const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(a));
@@ -72,7 +89,7 @@ HWY_INLINE TexelPairs LoadPairs(Address texel) {
 #else
 template <class Address>
 HWY_INLINE TexelPairs LoadPairs(Address texel) {
-  alignas(64) uint32_t first[8], second[8];
+  alignas(64) uint32_t first[kMaxLanes], second[kMaxLanes];
   for (int j = 0; j < kLanes; ++j) {
     first[j] = texel(j)[0];
     second[j] = texel(j)[1];
@@ -110,7 +127,7 @@ HWY_INLINE void Bilinear(Low low, High high, VF wu, VF wv, bool opaque, Lanes& v
 
 // The lanes' offsets as scalars, by way of memory: taking them out of a vector would cost the units that filter.
 struct LaneOffsets {
-  alignas(64) int32_t at[8];
+  alignas(64) int32_t at[kMaxLanes];
   HWY_INLINE explicit LaneOffsets(VI v) {
     hn::Store(v, DI(), at);
     __asm__ volatile("" : : "r"(at) : "memory");
@@ -134,7 +151,7 @@ struct SampleNearest {
     const VI offset =
         hn::Add(hn::Mul(hn::Add(y, hn::Set(di, 1)), hn::Set(di, level.pitch)), hn::Add(x, hn::Set(di, 1)));
     const LaneOffsets offsets(offset);
-    alignas(64) uint32_t texels[8];
+    alignas(64) uint32_t texels[kMaxLanes];
     for (int j = 0; j < kLanes; ++j) texels[j] = level.texels[offsets.at[j]];
     UnpackTexels(hn::Load(DU(), texels), v);
   }
@@ -194,8 +211,8 @@ struct SampleLinearDraft {
     const LevelRef& level = c.params->levels[0];
     const VI x = Fixed(v.slot[kS], level.width, c.params->sampler.wrap_s);
     const VI y = Fixed(v.slot[kT], level.height, c.params->sampler.wrap_t);
-    alignas(64) int32_t xs[8], ys[8];
-    alignas(64) uint32_t texels[8] = {};
+    alignas(64) int32_t xs[kMaxLanes], ys[kMaxLanes];
+    alignas(64) uint32_t texels[kMaxLanes] = {};
     hn::Store(x, di, xs);
     hn::Store(y, di, ys);
     for (unsigned todo = MaskBits(v.live); todo != 0; todo &= todo - 1) {
