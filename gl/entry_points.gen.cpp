@@ -945,6 +945,42 @@ HALFSPACE_ENTRY void GLAPIENTRY glPixelStoref(GLenum pname, GLfloat param) {
   HALFSPACE_CALL(pixel_storef, pname, param);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glPixelTransferf(GLenum pname, GLfloat param) {
+  HALFSPACE_CALL(pixel_transfer, pname, static_cast<GLdouble>(param));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPixelTransferi(GLenum pname, GLint param) {
+  HALFSPACE_CALL(pixel_transfer, pname, static_cast<GLdouble>(param));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPixelZoom(GLfloat xfactor, GLfloat yfactor) {
+  HALFSPACE_CALL(pixel_zoom, xfactor, yfactor);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPixelMapfv(GLenum map, GLsizei mapsize, const GLfloat* values) {
+  HALFSPACE_CALL(pixel_mapfv, map, mapsize, values);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPixelMapuiv(GLenum map, GLsizei mapsize, const GLuint* values) {
+  HALFSPACE_CALL(pixel_mapuiv, map, mapsize, values);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPixelMapusv(GLenum map, GLsizei mapsize, const GLushort* values) {
+  HALFSPACE_CALL(pixel_mapusv, map, mapsize, values);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetPixelMapfv(GLenum map, GLfloat* values) {
+  HALFSPACE_CALL(get_pixel_mapfv, map, values);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetPixelMapuiv(GLenum map, GLuint* values) {
+  HALFSPACE_CALL(get_pixel_mapuiv, map, values);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetPixelMapusv(GLenum map, GLushort* values) {
+  HALFSPACE_CALL(get_pixel_mapusv, map, values);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glReadPixels(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type, GLvoid* pixels) {
   HALFSPACE_CALL(read_pixels, x, y, width, height, format, type, pixels);
 }

@@ -14,7 +14,9 @@
 #include "state/hint.h"
 #include "state/immediate.h"
 #include "state/lighting.h"
+#include "state/pixel_map.h"
 #include "state/pixel_store.h"
+#include "state/pixel_transfer.h"
 #include "state/polygon.h"
 #include "state/scissor.h"
 #include "state/texture.h"
@@ -53,6 +55,8 @@ struct Context {
   HintState hint;
   TextureState texture;
   PixelStoreState pixel_store;
+  PixelTransferState pixel_transfer;
+  PixelMapState pixel_map;
   VertexArrayState vertex_array;
   ImmediateState immediate;
   AttributeStackState attribute_stack;

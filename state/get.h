@@ -55,5 +55,7 @@ std::span<const GetRow> limits_get_rows();
 std::span<const GetRow> texture_get_rows();
 std::span<const GetRow> pixel_store_get_rows();
 std::span<const GetRow> attribute_stack_get_rows();
+std::span<const GetRow> pixel_transfer_get_rows();
+std::span<const GetRow> pixel_map_get_rows();
 
 }  // namespace halfspace::state

@@ -24,7 +24,7 @@ struct ByteSource {
 struct FloatSource {
   using Value = float;
   static float pick(const Value* rgba, uint8_t what) {
-    return what != kLuminance ? rgba[what] : clamp_unit(rgba[0]) + clamp_unit(rgba[1]) + clamp_unit(rgba[2]);
+    return what != kLuminance ? rgba[what] : rgba[0] + rgba[1] + rgba[2];
   }
   template <class T>
   static T convert(float v) {
@@ -90,6 +90,28 @@ void encode_depth(const PixelFormat& format, bool swap_bytes, const uint32_t* de
   visit_type(format.type, [&]<class T>(T) {
     for (size_t i = 0; i < count; ++i, target += sizeof(T)) {
       store_value(target, from_unorm<T, kDepthMax>(depth[i]), swap_bytes);
+    }
+  });
+}
+
+void encode_depth(const PixelFormat& format, bool swap_bytes, const double* depth, size_t count,
+                  std::byte* target) {
+  visit_type(format.type, [&]<class T>(T) {
+    for (size_t i = 0; i < count; ++i, target += sizeof(T)) {
+      store_value(target, from_unit<T>(depth[i]), swap_bytes);
+    }
+  });
+}
+
+void encode_indices(const PixelFormat& format, bool swap_bytes, const int64_t* indices, size_t count,
+                    std::byte* target) {
+  visit_type(format.type, [&]<class T>(T) {
+    // Signed types have their sign bit left out.
+    for (size_t i = 0; i < count; ++i, target += sizeof(T)) {
+      if constexpr (std::floating_point<T>)
+        store_value(target, T(indices[i]), swap_bytes);
+      else
+        store_value(target, T(indices[i] & int64_t{std::numeric_limits<T>::max()}), swap_bytes);
     }
   });
 }

@@ -31,19 +31,31 @@ bool is_color_format(GLenum format);  // what holds at least one of R, G, B, A o
 // Whether a pixel in client memory is the bytes R, G, B, A in this order, so that nothing is to be converted.
 bool is_plain_rgba8(const PixelFormat& format, bool swap_bytes);
 
-// Reads `count` pixels of a colour format or of GL_COLOR_INDEX; writes R, G, B, A bytes. Luminance goes to R,
-// G and B; what the format lacks is 0, alpha 1. Indices go through the pixel maps I_TO_R ... I_TO_A, which
-// hold their initial single 0 as long as glPixelMap cannot change them.
+// Reads `count` pixels of a colour format; writes R, G, B, A. Luminance goes to R, G and B; what the format
+// lacks is 0, alpha 1. As floats they are not clamped.
 void decode_pixels(const PixelFormat& format, bool swap_bytes, const std::byte* source, size_t count,
                    uint8_t* rgba);
+void decode_pixels(const PixelFormat& format, bool swap_bytes, const std::byte* source, size_t count,
+                   float* rgba);
+// Reads GL_COLOR_INDEX or GL_STENCIL_INDEX pixels, of any type but GL_BITMAP. Fractions are dropped.
+void decode_indices(const PixelFormat& format, bool swap_bytes, const std::byte* source, size_t count,
+                    int64_t* indices);
+// Reads GL_DEPTH_COMPONENT pixels; 1 is the far plane. Not clamped.
+void decode_depths(const PixelFormat& format, bool swap_bytes, const std::byte* source, size_t count,
+                   double* depths);
 
 // Writes `count` pixels of a colour format. Luminance is R + G + B, at most 1. `rgba`: 4 components a pixel.
 void encode_pixels(const PixelFormat& format, bool swap_bytes, const uint8_t* rgba, size_t count,
                    std::byte* target);
 void encode_pixels(const PixelFormat& format, bool swap_bytes, const float* rgba, size_t count,
                    std::byte* target);
-// Writes GL_DEPTH_COMPONENT pixels. `depth`: 24-bit, d / (2^24 - 1).
+// Writes GL_DEPTH_COMPONENT pixels. `depth`: 24-bit, d / (2^24 - 1); or in [0, 1].
 void encode_depth(const PixelFormat& format, bool swap_bytes, const uint32_t* depth, size_t count,
                   std::byte* target);
+void encode_depth(const PixelFormat& format, bool swap_bytes, const double* depth, size_t count,
+                  std::byte* target);
+// Writes GL_STENCIL_INDEX pixels of any type but GL_BITMAP: as many bits as the type has (spec table 4.6).
+void encode_indices(const PixelFormat& format, bool swap_bytes, const int64_t* indices, size_t count,
+                    std::byte* target);
 
 }  // namespace halfspace::state

@@ -51,15 +51,32 @@ T from_unorm(uint64_t v) {
   }
 }
 
+// `unit` in [0, 1] in the type T.
 template <class T>
-T from_float(float f) {
-  const double unit = double(clamp_unit(f));
+T from_unit(double unit) {
   if constexpr (std::floating_point<T>) {
     return T(unit);
   } else if constexpr (std::unsigned_integral<T>) {
     return T(uint64_t(unit * double(kTypeMax<T>) + 0.5));
   } else {
     return T(int64_t(unit * double(kTypeMax<T>) * 0.5));  // floor((max * f - 1) / 2 + 1/2)
+  }
+}
+
+template <class T>
+T from_float(float f) {
+  return from_unit<T>(double(clamp_unit(f)));
+}
+
+// What an element stands for (table 2.9), rounded to float once; floats as they are.
+template <class T>
+float to_component(T c) {
+  if constexpr (std::floating_point<T>) {
+    return c;
+  } else if constexpr (std::unsigned_integral<T>) {
+    return float(double(c) / double(kTypeMax<T>));
+  } else {
+    return float((2 * double(c) + 1) / double(kTypeMax<T>));
   }
 }
 

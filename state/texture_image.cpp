@@ -4,37 +4,28 @@
 #include "state/context.h"
 #include "state/operations.gen.h"
 #include "state/out_of_memory.h"
-#include "state/pixel_format.h"
+#include "state/pixel_image.h"
 #include "state/texture_format.h"
 
 namespace halfspace::state {
 namespace {
 
-struct ClientImage {
-  PixelFormat format;
-  const PixelStore& store;
-  const void* pixels;
-};
-
 // The rows of an image in client memory as raster::Texture wants them: converted one at a time, or as they
 // lie when nothing is to be converted. May throw std::bad_alloc when made, never later.
 class ImageRows {
  public:
-  ImageRows(const ClientImage& image, raster::BaseFormat base, GLsizei width)
-      : image_(image), base_(base), width_(size_t(width)) {
-    const ClientLayout layout = client_layout(image.store, width, image.format.pixel_bytes);
-    first_ = static_cast<const std::byte*>(image.pixels) + layout.offset;
-    row_bytes_ = layout.row_bytes;
-    if (base != raster::BaseFormat::rgba || !is_plain_rgba8(image.format, image.store.swap_bytes)) {
-      converted_.resize(width_ * 4);
-    }
+  ImageRows(ImageReader& reader, raster::BaseFormat base, GLsizei width)
+      : reader_(reader), base_(base), converted_(size_t(width) * 4) {
+    reader_.reserve(size_t(width));
   }
 
   const uint8_t* row(int y) {
-    const std::byte* source = first_ + size_t(y) * row_bytes_;
-    if (converted_.empty()) return reinterpret_cast<const uint8_t*>(source);
-    decode_pixels(image_.format, image_.store.swap_bytes, source, width_, converted_.data());
-    reduce_to_base(base_, converted_.data(), width_);
+    if (base_ == raster::BaseFormat::rgba) {
+      if (const uint8_t* plain = reader_.plain_rgba8(y)) return plain;
+    }
+    const size_t width = converted_.size() / 4;
+    reader_.read_rgba8(0, y, width, converted_.data());
+    reduce_to_base(base_, converted_.data(), width);
     return converted_.data();
   }
 
@@ -43,12 +34,9 @@ class ImageRows {
   }
 
  private:
-  const ClientImage& image_;
+  ImageReader& reader_;
   raster::BaseFormat base_;
-  size_t width_;
-  const std::byte* first_;
-  size_t row_bytes_;
-  std::vector<uint8_t> converted_;  // empty: nothing to convert
+  std::vector<uint8_t> converted_;
 };
 
 void drop_view(TextureObject& object) {
@@ -56,15 +44,16 @@ void drop_view(TextureObject& object) {
   object.view_revision = ~uint64_t{0};
 }
 
-void define_image(TextureObject& object, int level, const TextureImage& info, const ClientImage& image) {
+// A null `reader` leaves the texels undefined.
+void define_image(TextureObject& object, int level, const TextureImage& info, ImageReader* reader) {
   const int width = info.width - 2 * info.border, height = info.height - 2 * info.border;
   drop_view(object);
   if (info.empty()) {
     object.storage.remove_level(level);
-  } else if (image.pixels == nullptr) {
+  } else if (reader == nullptr) {
     object.storage.define_level(level, width, height, info.border, info.base_format, nullptr);
   } else {
-    ImageRows rows(image, info.base_format, info.width);
+    ImageRows rows(*reader, info.base_format, info.width);
     object.storage.define_level(level, width, height, info.border, info.base_format, rows.source());
   }
   object.images[size_t(level)] = info;
@@ -137,7 +126,8 @@ void tex_image_2d(Context& context, GLenum target, GLint level, GLint internal_f
   TextureObject& object = *context.texture.bound_2d;
   guard_memory(context, [&] {
     const std::lock_guard lock(object.mutex);
-    define_image(object, level, info, {source, context.pixel_store.unpack, pixels});
+    ImageReader reader(context, source, context.pixel_store.unpack, width, pixels);
+    define_image(object, level, info, pixels == nullptr ? nullptr : &reader);
     touch_texture(context, object);
   });
 }
@@ -159,8 +149,8 @@ void tex_sub_image_2d(Context& context, GLenum target, GLint level, GLint x, GLi
   }
   if (width == 0 || height == 0 || pixels == nullptr) return;
   guard_memory(context, [&] {
-    const ClientImage image{source, context.pixel_store.unpack, pixels};
-    ImageRows rows(image, info.base_format, width);
+    ImageReader reader(context, source, context.pixel_store.unpack, width, pixels);
+    ImageRows rows(reader, info.base_format, width);
     drop_view(object);
     object.storage.update_level(level, x, y, width, height, rows.source());
     touch_texture(context, object);

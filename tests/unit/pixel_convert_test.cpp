@@ -139,12 +139,58 @@ TEST(PixelDecode, EveryPackedType) {
   }
 }
 
-TEST(PixelDecode, IndicesLookUpTheInitialPixelMaps) {
+TEST(PixelDecode, IndicesAreWholeNumbers) {
   const Bytes source(16, std::byte{0xA5});
-  for (GLenum type : {GLenum{GL_BITMAP}, GLenum{GL_UNSIGNED_BYTE}, GLenum{GL_SHORT}, GLenum{GL_FLOAT}}) {
-    std::vector<uint8_t> rgba(16, 0xEE);
-    decode_pixels(describe(GL_COLOR_INDEX, type), false, source.data(), 4, rgba.data());
-    EXPECT_EQ(rgba, std::vector<uint8_t>(16, 0)) << std::hex << type;
+  int64_t out[4] = {};
+  decode_indices(describe(GL_COLOR_INDEX, GL_UNSIGNED_BYTE), false, source.data(), 4, out);
+  EXPECT_EQ(out[3], 0xA5);
+  decode_indices(describe(GL_STENCIL_INDEX, GL_SHORT), false, source.data(), 4, out);
+  EXPECT_EQ(out[3], 0xA5A5 - 0x10000);
+  const float floats[4] = {3.75f, -2.5f, 1e30f, std::numeric_limits<float>::quiet_NaN()};
+  decode_indices(describe(GL_COLOR_INDEX, GL_FLOAT), false, reinterpret_cast<const std::byte*>(floats), 4,
+                 out);
+  EXPECT_EQ(out[0], 3);
+  EXPECT_EQ(out[1], -2);
+  EXPECT_EQ(out[2], 0);  // no index, but no undefined behaviour either
+  EXPECT_EQ(out[3], 0);
+}
+
+TEST(PixelDecode, DepthsOfEveryType) {
+  for (const TypeRow& type : kTypes) {
+    const Bytes source = random_elements(type, kPixels, 11);
+    const size_t size = size_t(type.bits) / 8;
+    std::vector<double> depths(kPixels), from_swapped(kPixels);
+    decode_depths(describe(GL_DEPTH_COMPONENT, type.type), false, source.data(), kPixels, depths.data());
+    decode_depths(describe(GL_DEPTH_COMPONENT, type.type), true, swapped(source, size).data(), kPixels,
+                  from_swapped.data());
+    for (size_t i = 0; i < kPixels; ++i) {
+      const Real expected = component_value(type, read_element(&source[i * size], size, false));
+      if (std::isnan(depths[i])) continue;  // the model takes it for 0
+      ASSERT_EQ(depths[i], double(expected)) << std::hex << type.type << " pixel " << i;
+      ASSERT_EQ(depths[i], from_swapped[i]);
+    }
+  }
+}
+
+TEST(PixelDecode, EveryFormatAndTypeToFloats) {
+  for (const FormatRow& format : kFormats) {
+    for (const TypeRow& type : kTypes) {
+      const size_t size = size_t(type.bits) / 8, n = format.components.size();
+      const Bytes source = random_elements(type, kPixels * n, 12);
+      std::vector<float> rgba(kPixels * 4);
+      decode_pixels(describe(format.format, type.type), false, source.data(), kPixels, rgba.data());
+      for (size_t i = 0; i < kPixels; ++i) {
+        std::vector<Real> values;
+        for (size_t c = 0; c < n; ++c) {
+          values.push_back(component_value(type, read_element(&source[(i * n + c) * size], size, false)));
+        }
+        const Rgba expected = expand(format.components, values);
+        for (size_t c = 0; c < 4; ++c) {
+          if (std::isnan(rgba[i * 4 + c])) continue;
+          ASSERT_EQ(rgba[i * 4 + c], float(expected[c])) << format.components << std::hex << type.type;
+        }
+      }
+    }
   }
 }
 
@@ -218,7 +264,10 @@ TEST(PixelEncode, EveryFormatAndTypeFromFloats) {
         for (size_t c = 0; c < 4; ++c) color[c] = clamp01(Real(rgba[i / n * 4 + c]));
         const char component = format.components[i % n];
         const uint64_t bits = read_element(&out[i * size], size, false);
-        const Real exact = picked(component, color);
+        // The sum of luminance is clamped, its terms are not; a NaN in it is a NaN.
+        Real sum = 0;
+        for (size_t c = 0; c < 3; ++c) sum += Real(rgba[i / n * 4 + c]);
+        const Real exact = component == 'L' ? clamp01(sum) : picked(component, color);
         // The sum of luminance is rounded to float, and 32-bit integers are finer than a double product.
         const Real tolerance = (component == 'L' ? std::ldexp(Real{1}, -23) : 0) + std::ldexp(Real{1}, -32);
         const Real step = type.is_float ? std::ldexp(Real{1}, -25) : 1 / power_of_two_less_one(type.bits);
