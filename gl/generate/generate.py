@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 from entry_points import entry_point
+from fuzz_tables import fuzz_commands, fuzz_values
 from overlay import OverlayError, bind_commands, read_overlay
 from registry import read_registry
 
@@ -176,6 +177,8 @@ def generate(gl_xml):
         "state/operations.gen.cpp": operations_source(operations),
         "gl/entry_points.gen.cpp": entry_points_source(operations, registry),
         "gl/proc_table.gen.cpp": proc_table(implemented),
+        "tests/fuzz/commands.gen.def": fuzz_commands(gl_xml, registry, NOTICE),
+        "tests/fuzz/values.gen.def": fuzz_values(gl_xml, NOTICE),
     }
     for library, names in exports.items():
         stubs = [

@@ -1,0 +1,173 @@
+#include "call.h"
+
+#include <cstring>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+namespace halfspace::fuzz {
+namespace {
+
+template <typename Parameter>
+Parameter argument_of(const Call& call, size_t index) {
+  if constexpr (std::is_pointer_v<Parameter>) {
+    return call.data.empty() ? nullptr : reinterpret_cast<Parameter>(call.data.data());
+  } else if constexpr (std::is_integral_v<Parameter>) {
+    return static_cast<Parameter>(static_cast<long long>(call.arguments[index]));
+  } else {
+    return static_cast<Parameter>(call.arguments[index]);
+  }
+}
+
+template <typename Function>
+struct Player;
+
+template <typename Result, typename... Parameters>
+struct Player<Result(Parameters...)> {
+  static void play(const Call& call, void* function) {
+    play_indexed(call, function, std::index_sequence_for<Parameters...>());
+  }
+  template <size_t... kIndices>
+  static void play_indexed([[maybe_unused]] const Call& call, void* function,
+                           std::index_sequence<kIndices...>) {
+    reinterpret_cast<Result (*)(Parameters...)>(function)(argument_of<Parameters>(call, kIndices)...);
+  }
+  static constexpr size_t kCount = sizeof...(Parameters);
+};
+
+struct Row {
+  const char* name;
+  size_t parameters;
+  void (*play)(const Call&, void*);
+};
+
+const Row kRows[] = {
+#define HALFSPACE_COMMAND(name, groups) \
+  {#name, Player<decltype(::name)>::kCount, Player<decltype(::name)>::play},
+#include "commands.gen.def"
+#undef HALFSPACE_COMMAND
+};
+
+const Row& row_of(Command command) { return kRows[static_cast<size_t>(command)]; }
+
+// The spec's section 2.6.3, without glCallList(s): a list may hold whatever it likes.
+bool is_allowed_inside(Command command) {
+  static const std::set<std::string> kPrefixes = {"glVertex",    "glColor",    "glIndex",    "glNormal",
+                                                  "glTexCoord",  "glEdgeFlag", "glMaterial", "glArrayElement",
+                                                  "glEvalCoord", "glEvalPoint"};
+  static const std::set<std::string> kOthers = {"glColorMask",     "glColorMaterial",   "glColorPointer",
+                                                "glIndexMask",     "glIndexPointer",    "glNormalPointer",
+                                                "glVertexPointer", "glTexCoordPointer", "glEdgeFlagPointer"};
+  const std::string name = name_of(command);
+  if (kOthers.count(name)) return false;
+  for (const std::string& prefix : kPrefixes) {
+    if (name.starts_with(prefix)) return true;
+  }
+  return false;
+}
+
+class Writer {
+ public:
+  template <typename Number>
+  void number(Number value) {
+    const size_t at = bytes_.size();
+    bytes_.resize(at + sizeof(value));
+    std::memcpy(bytes_.data() + at, &value, sizeof(value));
+  }
+  void append(const std::vector<uint8_t>& data) { bytes_.insert(bytes_.end(), data.begin(), data.end()); }
+  std::vector<uint8_t> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<uint8_t> bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::vector<uint8_t>& bytes) : bytes_(bytes) {}
+  template <typename Number>
+  Number number() {
+    Number value;
+    need(sizeof(value));
+    std::memcpy(&value, bytes_.data() + at_, sizeof(value));
+    at_ += sizeof(value);
+    return value;
+  }
+  std::vector<uint8_t> data(size_t size) {
+    need(size);
+    const auto first = bytes_.begin() + static_cast<std::ptrdiff_t>(at_);
+    at_ += size;
+    return {first, first + static_cast<std::ptrdiff_t>(size)};
+  }
+
+ private:
+  void need(size_t size) const {
+    if (size > bytes_.size() - at_) throw std::runtime_error("a stream is cut short");
+  }
+  const std::vector<uint8_t>& bytes_;
+  size_t at_ = 0;
+};
+
+}  // namespace
+
+const char* name_of(Command command) { return row_of(command).name; }
+
+void play(const Call& call, void* function) {
+  if (call.arguments.size() != row_of(call.command).parameters)
+    throw std::runtime_error(std::string(name_of(call.command)) + ": wrong number of arguments");
+  row_of(call.command).play(call, function);
+}
+
+bool is_well_formed(const Stream& stream) {
+  bool inside = false, listing = false;
+  for (const Call& call : stream) {
+    switch (call.command) {
+      case Command::glBegin:
+        if (inside) return false;
+        inside = true;
+        break;
+      case Command::glEnd:
+        if (!inside) return false;
+        inside = false;
+        break;
+      case Command::glNewList:
+        if (listing || inside) return false;
+        listing = true;
+        break;
+      case Command::glEndList:
+        if (!listing || inside) return false;
+        listing = false;
+        break;
+      default:
+        if (inside && !is_allowed_inside(call.command)) return false;
+    }
+  }
+  return !inside && !listing;
+}
+
+std::vector<uint8_t> serialize(const Stream& stream) {
+  Writer writer;
+  writer.number(static_cast<uint32_t>(stream.size()));
+  for (const Call& call : stream) {
+    writer.number(call.command);
+    writer.number(static_cast<uint16_t>(call.arguments.size()));
+    for (double argument : call.arguments) writer.number(argument);
+    writer.number(static_cast<uint32_t>(call.data.size()));
+    writer.append(call.data);
+  }
+  return writer.take();
+}
+
+Stream deserialize(const std::vector<uint8_t>& bytes) {
+  Reader reader(bytes);
+  Stream stream(reader.number<uint32_t>());
+  for (Call& call : stream) {
+    call.command = reader.number<Command>();
+    call.arguments.resize(reader.number<uint16_t>());
+    for (double& argument : call.arguments) argument = reader.number<double>();
+    call.data = reader.data(reader.number<uint32_t>());
+  }
+  return stream;
+}
+
+}  // namespace halfspace::fuzz
