@@ -563,6 +563,38 @@ HALFSPACE_ENTRY void GLAPIENTRY glGetMaterialiv(GLenum face, GLenum pname, GLint
   HALFSPACE_CALL(get_materialiv, face, pname, params);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glNewList(GLuint list, GLenum mode) {
+  HALFSPACE_CALL(new_list, list, mode);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEndList() {
+  HALFSPACE_CALL(end_list);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCallList(GLuint list) {
+  HALFSPACE_CALL(call_list, list);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCallLists(GLsizei n, GLenum type, const GLvoid* lists) {
+  HALFSPACE_CALL(call_lists, n, type, lists);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glListBase(GLuint base) {
+  HALFSPACE_CALL(list_base, base);
+}
+
+HALFSPACE_ENTRY GLuint GLAPIENTRY glGenLists(GLsizei range) {
+  return HALFSPACE_CALL(gen_lists, range);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glDeleteLists(GLuint list, GLsizei range) {
+  HALFSPACE_CALL(delete_lists, list, range);
+}
+
+HALFSPACE_ENTRY GLboolean GLAPIENTRY glIsList(GLuint list) {
+  return HALFSPACE_CALL(is_list, list);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glVertexPointerEXT(GLint size, GLenum type, GLsizei stride, GLsizei, const GLvoid* pointer) {
   HALFSPACE_CALL(vertex_pointer, size, type, stride, pointer);
 }

@@ -73,6 +73,7 @@ using AttributeGroups = std::tuple<                                             
     Group<GL_ENABLE_BIT, SavedEnables>,                                                         //
     Group<GL_HINT_BIT, Whole<&Context::hint>>,                                                  //
     Group<GL_LIGHTING_BIT, Whole<&Context::lighting>>,                                          //
+    Group<GL_LIST_BIT, Whole<&Context::list>, 0>,                                               //
     Group<GL_PIXEL_MODE_BIT, Part<&Context::color_buffer, &ColorBufferState::read_buffer>, 0>,  //
     Group<GL_PIXEL_MODE_BIT, Whole<&Context::pixel_transfer>, 0>,                               //
     Group<GL_POLYGON_BIT, Whole<&Context::polygon>>,                                            //

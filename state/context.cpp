@@ -10,7 +10,7 @@ thread_local constinit CurrentBinding current_binding
     __attribute__((tls_model("initial-exec"))) = {nullptr, &kNoContextTable};
 
 Context::Context(const VisualConfig& config, Context* share)
-    : visual(config), table(&kExecuteTable), texture(share ? &share->texture : nullptr) {
+    : visual(config), table(&kExecuteTable), texture(share ? &share->texture : nullptr), lists(share ? &share->lists : nullptr) {
   color_buffer.draw_buffer = color_buffer.read_buffer = config.double_buffered ? GL_BACK : GL_FRONT;
   derived.accuracy = accuracy_from_environment();
 }
@@ -20,6 +20,11 @@ Context::~Context() {
 }
 
 namespace {
+
+// What entry points call.
+const OperationTable& entry_table(const Context& context) {
+  return context.lists.compiler.active() ? kCompileTable : *context.table;
+}
 
 // Executes what is pending, shows what can be seen without a swap, and lets go of the drawable's buffers.
 void release(Context& context) try {
@@ -62,7 +67,7 @@ void make_current(Context* context, Drawable* drawable) {
   flush_vertices(*context);
   context->drawable = drawable;
   context->read_drawable = nullptr;
-  current_binding = {context, context->table};
+  current_binding = {context, &entry_table(*context)};
   mark_dirty(*context, kDirtyFragment);  // the front end may have changed the visual
   if (drawable && !context->was_current) {
     context->was_current = true;
@@ -72,7 +77,7 @@ void make_current(Context* context, Drawable* drawable) {
 
 void set_table(Context& context, const OperationTable& table) {
   context.table = &table;
-  if (current_binding.context == &context) current_binding.table = &table;
+  if (current_binding.context == &context) current_binding.table = &entry_table(context);
 }
 
 namespace op {

@@ -9,6 +9,7 @@
 #include "state/color_buffer.h"
 #include "state/current.h"
 #include "state/depth_buffer.h"
+#include "state/display_list.h"
 #include "state/drawable.h"
 #include "state/error.h"
 #include "state/hint.h"
@@ -30,7 +31,7 @@ namespace halfspace::state {
 struct OperationTable;  // state/operations.gen.h
 
 struct Context {
-  // `share`: context whose texture objects (later: lists) this one uses too, or null.
+  // `share`: context whose texture objects and display lists this one uses too, or null.
   Context(const VisualConfig& visual, Context* share);
   ~Context();
   Context(const Context&) = delete;
@@ -40,7 +41,7 @@ struct Context {
   Drawable* drawable = nullptr;  // null while not current
   Drawable* read_drawable = nullptr;  // where pixels are read, when it is not `drawable` (glXMakeContextCurrent)
   bool was_current = false;      // the first make-current sets viewport and scissor to the drawable's size
-  const OperationTable* table;   // what entry points call now: outside, or inside Begin/End
+  const OperationTable* table;   // what executes commands now: outside, or inside Begin/End
 
   ErrorState error;
   CapabilityState capability;
@@ -60,6 +61,8 @@ struct Context {
   VertexArrayState vertex_array;
   ImmediateState immediate;
   AttributeStackState attribute_stack;
+  ListState list;
+  ListMachine lists;
   DerivedState derived;
 
   raster::Device device;
@@ -77,7 +80,8 @@ extern constinit thread_local CurrentBinding current_binding __attribute__((tls_
 // was current is executed first (as glFlush). Also the way a front end says that the drawable changed its size.
 void make_current(Context* context, Drawable* drawable);
 
-// Swaps which operations the entry points reach (Begin, End, and later NewList).
+// Swaps which operations execute commands (Begin, End). Entry points reach them directly, or between NewList and EndList
+// through the table that compiles.
 void set_table(Context& context, const OperationTable& table);
 
 }  // namespace halfspace::state

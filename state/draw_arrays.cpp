@@ -31,7 +31,8 @@ bool is_readable(VertexArrayState& arrays, const std::byte* address) {
   return true;
 }
 
-// Whether elements first .. last of an array that will be read are there.
+}  // namespace
+
 bool elements_are_readable(VertexArrayState& arrays, const ClientArray& array, size_t first, size_t last) {
   if (!array.pointer) return false;
   const auto* base = static_cast<const std::byte*>(array.pointer);
@@ -39,6 +40,8 @@ bool elements_are_readable(VertexArrayState& arrays, const ClientArray& array, s
   return is_readable(arrays, base + first * stride) &&
          is_readable(arrays, base + last * stride + element_bytes(array) - 1);
 }
+
+namespace {
 
 // Null arrays and elements out of memory: GL leaves open what happens; here nothing is drawn.
 bool arrays_are_readable(Context& context, const VertexNeeds& needs, size_t first, size_t last) {

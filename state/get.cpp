@@ -16,7 +16,7 @@ std::vector<GetRow> collect_rows() {
                      scissor_get_rows(), polygon_get_rows(), lighting_get_rows(), depth_buffer_get_rows(),
                      color_buffer_get_rows(), hint_get_rows(), vertex_array_get_rows(), texture_get_rows(),
                      pixel_store_get_rows(), pixel_transfer_get_rows(), pixel_map_get_rows(),
-                     attribute_stack_get_rows(), limits_get_rows()}) {
+                     attribute_stack_get_rows(), list_get_rows(), limits_get_rows()}) {
     rows.insert(rows.end(), group.begin(), group.end());
   }
   const auto by_name = [](const GetRow& a, const GetRow& b) { return a.name < b.name; };

@@ -27,6 +27,14 @@ struct OperationTable {
   void (*get_lightiv)(Context&, GLenum light, GLenum pname, GLint* params);
   void (*get_materialfv)(Context&, GLenum face, GLenum pname, GLfloat* params);
   void (*get_materialiv)(Context&, GLenum face, GLenum pname, GLint* params);
+  void (*new_list)(Context&, GLuint name, GLenum mode);
+  void (*end_list)(Context&);
+  void (*call_list)(Context&, GLuint name);
+  void (*call_lists)(Context&, GLsizei n, GLenum type, const GLvoid* names);
+  void (*list_base)(Context&, GLuint base);
+  GLuint (*gen_lists)(Context&, GLsizei range);
+  void (*delete_lists)(Context&, GLuint name, GLsizei range);
+  GLboolean (*is_list)(Context&, GLuint name);
   void (*vertex_pointer)(Context&, GLint size, GLenum type, GLsizei stride, const GLvoid* pointer);
   void (*color_pointer)(Context&, GLint size, GLenum type, GLsizei stride, const GLvoid* pointer);
   void (*normal_pointer)(Context&, GLenum type, GLsizei stride, const GLvoid* pointer);
@@ -120,6 +128,8 @@ struct OperationTable {
 extern const OperationTable kExecuteTable;
 // Between glBegin and glEnd: what the spec forbids there (2.6.3) records GL_INVALID_OPERATION and returns 0.
 extern const OperationTable kInsideBeginEndTable;
+// Between glNewList and glEndList: what can be compiled is, the rest is executed.
+extern const OperationTable kCompileTable;
 // Without a current context nothing happens; the context is never looked at.
 extern const OperationTable kNoContextTable;
 
@@ -141,6 +151,14 @@ void get_lightfv(Context&, GLenum light, GLenum pname, GLfloat* params);
 void get_lightiv(Context&, GLenum light, GLenum pname, GLint* params);
 void get_materialfv(Context&, GLenum face, GLenum pname, GLfloat* params);
 void get_materialiv(Context&, GLenum face, GLenum pname, GLint* params);
+void new_list(Context&, GLuint name, GLenum mode);
+void end_list(Context&);
+void call_list(Context&, GLuint name);
+void call_lists(Context&, GLsizei n, GLenum type, const GLvoid* names);
+void list_base(Context&, GLuint base);
+GLuint gen_lists(Context&, GLsizei range);
+void delete_lists(Context&, GLuint name, GLsizei range);
+GLboolean is_list(Context&, GLuint name);
 void vertex_pointer(Context&, GLint size, GLenum type, GLsizei stride, const GLvoid* pointer);
 void color_pointer(Context&, GLint size, GLenum type, GLsizei stride, const GLvoid* pointer);
 void normal_pointer(Context&, GLenum type, GLsizei stride, const GLvoid* pointer);

@@ -26,6 +26,9 @@ raster::AttributeStream fetch_range(const ClientArray& array, Conversion convers
 raster::AttributeStream fetch_indexed(const ClientArray& array, Conversion conversion,
                                       const uint32_t* indices, size_t count, std::vector<float>& scratch);
 
+// Whether elements first .. last are in memory. What was found there once is not looked at again.
+bool elements_are_readable(VertexArrayState& arrays, const ClientArray& array, size_t first, size_t last);
+
 // One element; `out` gets array.size floats, the rest of its four stay.
 void fetch_element(const ClientArray& array, Conversion conversion, size_t index, float out[4]);
 

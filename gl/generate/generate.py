@@ -12,6 +12,7 @@ from pathlib import Path
 
 from entry_points import entry_point
 from fuzz_tables import fuzz_commands, fuzz_values
+from list_table import list_table_source
 from overlay import OverlayError, bind_commands, read_overlay
 from registry import read_registry
 
@@ -47,6 +48,8 @@ struct OperationTable {{
 extern const OperationTable kExecuteTable;
 // Between glBegin and glEnd: what the spec forbids there (2.6.3) records GL_INVALID_OPERATION and returns 0.
 extern const OperationTable kInsideBeginEndTable;
+// Between glNewList and glEndList: what can be compiled is, the rest is executed.
+extern const OperationTable kCompileTable;
 // Without a current context nothing happens; the context is never looked at.
 extern const OperationTable kNoContextTable;
 
@@ -175,6 +178,7 @@ def generate(gl_xml):
     output = {
         "state/operations.gen.h": operations_header(operations),
         "state/operations.gen.cpp": operations_source(operations),
+        "state/list_table.gen.cpp": list_table_source(NOTICE, operations),
         "gl/entry_points.gen.cpp": entry_points_source(operations, registry),
         "gl/proc_table.gen.cpp": proc_table(implemented),
         "tests/fuzz/commands.gen.def": fuzz_commands(gl_xml, registry, NOTICE),

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from registry import Parameter, tidy_type
 
 OP_LINE = re.compile(r"op (?P<name>\w+)\((?P<parameters>.*)\)(?: -> (?P<result>[\w\s*]+?))?(?: : (?P<flags>[\w ]+))?$")
-KNOWN_FLAGS = {"begin", "client"}
+LIST_LINE = re.compile(r"\s+list (?P<parameter>\w+) = (?P<rule>.+?)(?: unless (?P<exception>.+))?$")
+KNOWN_FLAGS = {"begin", "client", "gathered"}
 KNOWN_CONVERSIONS = {"normalize", "pad", "scalar", "drop", "by"}
 
 
@@ -23,6 +24,8 @@ class Operation:
     return_type: str
     flags: set
     commands: dict = field(default_factory=dict)  # command name -> {conversion: [words]}
+    kept: dict = field(default_factory=dict)  # parameter name -> what a display list keeps of it
+    exception: str = ""  # when this holds, the op is executed at once even in a display list
 
     @property
     def signature(self):
@@ -66,6 +69,14 @@ def read_conversions(text):
     return conversions
 
 
+def read_list_rule(operation, line):
+    match = LIST_LINE.match(line)
+    if not match or match["parameter"] not in [parameter.name for parameter in operation.parameters]:
+        raise OverlayError(f"not a list rule of op {operation.name}: {line.strip()}")
+    operation.kept[match["parameter"]] = match["rule"]
+    operation.exception = match["exception"] or ""
+
+
 def read_overlay(path):
     """The operations, in the order of the file."""
     operations = []
@@ -75,6 +86,9 @@ def read_overlay(path):
                 continue
             if line.startswith("op "):
                 operations.append(read_operation(line))
+                continue
+            if line.lstrip().startswith("list "):
+                read_list_rule(operations[-1], line)
                 continue
             patterns, _, conversions = line.partition(" = ")
             for pattern in patterns.split():
