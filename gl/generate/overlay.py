@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from registry import Parameter, tidy_type
 
 OP_LINE = re.compile(r"op (?P<name>\w+)\((?P<parameters>.*)\)(?: -> (?P<result>[\w\s*]+?))?(?: : (?P<flags>[\w ]+))?$")
-LIST_LINE = re.compile(r"\s+list (?P<parameter>\w+) = (?P<rule>.+?)(?: unless (?P<exception>.+))?$")
+LIST_LINE = re.compile(r"\s+list (?P<parameter>\w+) = (?P<rule>.+)$")
 KNOWN_FLAGS = {"begin", "client", "gathered"}
 KNOWN_CONVERSIONS = {"normalize", "pad", "scalar", "drop", "by"}
 
@@ -25,7 +25,6 @@ class Operation:
     flags: set
     commands: dict = field(default_factory=dict)  # command name -> {conversion: [words]}
     kept: dict = field(default_factory=dict)  # parameter name -> what a display list keeps of it
-    exception: str = ""  # when this holds, the op is executed at once even in a display list
 
     @property
     def signature(self):
@@ -74,7 +73,6 @@ def read_list_rule(operation, line):
     if not match or match["parameter"] not in [parameter.name for parameter in operation.parameters]:
         raise OverlayError(f"not a list rule of op {operation.name}: {line.strip()}")
     operation.kept[match["parameter"]] = match["rule"]
-    operation.exception = match["exception"] or ""
 
 
 def read_overlay(path):
