@@ -57,6 +57,10 @@ class Script(unittest.TestCase):
         (self.root / "cmake").mkdir(parents=True)
         self.script = shutil.copy(SCRIPT, self.root)
         self.packages("build alpha\nbuild beta\ntest delta\n")
+        (self.root / "tests" / "conformance").mkdir(parents=True)
+        (self.root / "tests" / "conformance" / "run.py").write_text(
+            'import os; open(os.environ["CALLS"] + "/log", "a").write("conformance\\n")\n'
+            'print("100% tests passed, 0 tests failed out of 10")\n')
         self.calls = pathlib.Path(folder.name) / "calls"
         self.calls.mkdir()
         (self.calls / "installed").write_text(INSTALLED)
@@ -143,15 +147,17 @@ class Script(unittest.TestCase):
             if call.startswith("cmake"):
                 self.assertIn("HALFSPACE_BUILD_TESTS=ON", call)
                 self.assertIn("HALFSPACE_WERROR=ON", call)
-        self.assertEqual(done.stdout.splitlines()[-1], "100% tests passed, 0 tests failed out of 40")
+        self.assertIn("conformance", calls)
+        self.assertEqual(done.stdout.splitlines()[-1], "100% tests passed, 0 tests failed out of 50")
         built = [call.split("/build/")[1].split() for call in calls if call.startswith("ninja")]
         # The lists of targets and tests first, or what is chosen from them would be yesterday's.
         self.assertEqual(built, [["release"]] + [[preset, *wanted] for preset in ("clang", "asan-ubsan", "tsan")
-                                                 for wanted in (["build.ninja"], ["lib/x.so", "some_test"])])
+                                                 for wanted in (["build.ninja"], ["lib/x.so", "some_test"])] +
+                         [["release", "halfspace_libgl"]])
 
     def test_a_failure_anywhere_fails(self):
-        for failing, line in (("tsan", "95% tests passed, 2 tests failed out of 40"),
-                              ("crash", "0% tests passed, 4 tests failed out of 4")):
+        for failing, line in (("tsan", "96% tests passed, 2 tests failed out of 50"),
+                              ("crash", "71% tests passed, 4 tests failed out of 14")):
             done, _ = self.run_script("test", FAKE_FAILING=failing)
             self.assertEqual(done.returncode, 1)
             self.assertEqual(done.stdout.splitlines()[-1], line)
@@ -161,7 +167,13 @@ class Script(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(len([call for call in calls if call.startswith("ctest")]), 3)
         self.assertIn("does not build", done.stdout)
-        self.assertEqual(done.stdout.splitlines()[-1], "96% tests passed, 1 tests failed out of 31")
+        self.assertEqual(done.stdout.splitlines()[-1], "97% tests passed, 1 tests failed out of 41")
+
+    def test_conformance_alone(self):
+        done, calls = self.run_script("test", "conformance")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.splitlines()[-1], "100% tests passed, 0 tests failed out of 10")
+        self.assertFalse([call for call in calls if call.startswith("ctest")])
 
     def test_labels_and_ctest_arguments(self):
         done, calls = self.run_script("test", "unit", "api", "-R", "a b", DISPLAY=":9")
@@ -184,7 +196,7 @@ class Tree(unittest.TestCase):
     def test_package_list(self):
         lines = (SCRIPT.parent / "cmake" / "debian-packages.txt").read_text().splitlines()
         pairs = [line.split() for line in lines if line and not line.startswith("#")]
-        self.assertTrue(all(len(pair) == 2 and pair[0] in ("build", "test", "bench") for pair in pairs))
+        self.assertTrue(all(len(pair) == 2 and pair[0] in ("build", "test", "conformance", "bench", "gallery") for pair in pairs))
         self.assertEqual(len({pair[1] for pair in pairs}), len(pairs))
 
     def test_ci_calls_the_script(self):
