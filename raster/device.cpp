@@ -46,7 +46,7 @@ bool fuses(const DeviceOptions& options) {
 
 bool same_layout(const VertexLayout& a, const VertexLayout& b) {
   return a.attribute_count == b.attribute_count && a.color == b.color && a.tex_coord == b.tex_coord &&
-         a.projective == b.projective && a.constant_color == b.constant_color;
+         a.projective == b.projective && a.fog == b.fog && a.back_color == b.back_color && a.constant_color == b.constant_color;
 }
 
 // Vertices a primitive of its own has, or 0 for modes whose primitives share vertices.
@@ -95,8 +95,6 @@ struct Device::Impl {
   // The pass so far. Segments, and what they hold, are reused from pass to pass.
   std::vector<std::unique_ptr<Segment>> segments;
   std::vector<Segment*> pending;
-  uint8_t pending_targets = 0;  // colour planes drawn to since the pass began or was last executed
-  bool pending_stencil = false;  // and whether the stencil plane may have been written
   bool last_is_open = false;  // the last pending segment takes further small draws
   std::deque<DrawRecord> draws;
   std::deque<PipelineProgram> programs;
@@ -110,14 +108,13 @@ struct Device::Impl {
   Segment& new_segment();
   Segment& open_segment();
   const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout);
-  void shade(const DrawState& state, const VertexBatch& batch, ShadedVertices& vertices);
+  void shade(const DrawPacket& packet, ShadedVertices& vertices);
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void draw(const DrawPacket& packet);
   void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout);
   void draw_part(const DrawPacket& packet, const VertexLayout& layout, const PipelineProgram& program);
-  void execute(const LinearImage* image, ColorPlane plane = kBackPlane);
+  void execute(const LinearImage* image);
   void discard();
-  bool covers_pending(const ClearCommand& command) const;
 };
 
 Segment& Device::Impl::new_segment() {
@@ -146,7 +143,8 @@ const PipelineProgram& Device::Impl::program_for(const std::shared_ptr<const Dra
   return programs.back();
 }
 
-void Device::Impl::shade(const DrawState& state, const VertexBatch& batch, ShadedVertices& vertices) {
+void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
+  const VertexBatch& batch = packet.batch;
   vertices.count = batch.count;
   vertices.records = arena.allocate(batch.count * vertices.layout.stride());
   vertices.outcodes.swap(outcodes);
@@ -158,7 +156,8 @@ void Device::Impl::shade(const DrawState& state, const VertexBatch& batch, Shade
   const uint32_t tasks = (batch.count + kVerticesPerTask - 1) / kVerticesPerTask;
   pool.run(tasks, [&](uint32_t task, int) {
     const uint32_t first = task * kVerticesPerTask;
-    shade_vertices(state, batch, first, std::min(kVerticesPerTask, batch.count - first), vertices);
+    shade_vertices(*packet.state, batch, packet.materials, first, std::min(kVerticesPerTask, batch.count - first),
+                   vertices);
   });
 }
 
@@ -187,10 +186,7 @@ void Device::Impl::draw(const DrawPacket& packet) {
   ++statistics.draws;
   statistics.vertices += packet.batch.count;
   if (program.draws_nothing || draw_bounds(state, *target).empty()) return;
-  if (program.writes_color) {
-    target->need_color(state.color_targets);
-    pending_targets |= state.color_targets;
-  }
+  if (program.writes_color) target->need_color();
   if (program.reads_depth) target->need_depth();
   draw_in_parts(packet, layout);
 }
@@ -226,7 +222,7 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.bounds = draw_bounds(*packet.state, *target);
   record.program = &program;
   record.vertices.layout = layout;
-  shade(*packet.state, packet.batch, record.vertices);
+  shade(packet, record.vertices);
   assemble_draw(record, packet, primitive_count(packet.primitive, packet.index_count));
   // Clip coordinates and outcodes have done their work; the next draw takes their memory.
   record.vertices.outcodes.swap(outcodes);
@@ -243,8 +239,6 @@ void Device::Impl::discard() {
     statistics.clipped += segment->clipped;
   }
   pending.clear();
-  pending_targets = 0;
-  pending_stencil = false;
   last_is_open = false;
   draws.clear();
   programs.clear();
@@ -252,13 +246,7 @@ void Device::Impl::discard() {
   arena.reset();
 }
 
-// True if nothing of the pending work would be seen after the clear.
-bool Device::Impl::covers_pending(const ClearCommand& command) const {
-  return command.color && command.depth && (pending_targets & ~command.color_targets) == 0 &&
-         (command.stencil || !pending_stencil) && clears_everything(*target, command);
-}
-
-void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
+void Device::Impl::execute(const LinearImage* image) {
   if (target == nullptr) return;
   std::vector<uint32_t> tiles;
   if (image != nullptr) {
@@ -274,7 +262,7 @@ void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
   pool.run(static_cast<uint32_t>(tiles.size()), [&](uint32_t i, int worker) {
     TileStatistics local;
     if (!pending.empty()) run_tile(pending, *target, tiles[i], local);
-    if (image != nullptr) resolve_tile(*target, tiles[i], plane_index(plane), *image);
+    if (image != nullptr) resolve_tile(*target, tiles[i], *image);
     counts[static_cast<size_t>(worker)].fragments += local.fragments;
     counts[static_cast<size_t>(worker)].double_fragments += local.double_fragments;
   });
@@ -297,13 +285,13 @@ void Device::begin_pass(Framebuffer* target) {
 
 void Device::clear(const ClearCommand& command) {
   if (impl_->target == nullptr) return;
-  if (impl_->covers_pending(command)) impl_->discard();
+  if (command.color && command.depth && clears_everything(*impl_->target, command)) impl_->discard();
   else impl_->execute(nullptr);
   raster::clear(*impl_->target, command);
 }
 
 void Device::draw(const DrawPacket& packet) { impl_->draw(packet); }
-void Device::finish(const LinearImage* image, ColorPlane plane) { impl_->execute(image, plane); }
+void Device::finish(const LinearImage* image, ColorPlane) { impl_->execute(image); }
 const DeviceStatistics& Device::statistics() const { return impl_->statistics; }
 
 namespace {
@@ -322,24 +310,22 @@ void read_rows(const Framebuffer::Impl& fb, const Rect& rect, size_t channels, T
 
 }  // namespace
 
-void Device::read_color(const Rect& rect, uint8_t* out, ColorPlane plane) {
+void Device::read_color(const Rect& rect, uint8_t* out, ColorPlane) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
   std::vector<uint32_t> row(static_cast<size_t>(fb.width));
   read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, uint8_t* to) {
-    read_row_rgba8(fb, plane_index(plane), x0, x1, y, row.data());
+    read_row_rgba8(fb, x0, x1, y, row.data());
     std::memcpy(to, row.data(), static_cast<size_t>(x1 - x0) * 4);
   });
 }
 
-void Device::read_color_float(const Rect& rect, float* out, ColorPlane plane) {
+void Device::read_color_float(const Rect& rect, float* out, ColorPlane) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
-  read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, float* to) {
-    read_row_float(fb, plane_index(plane), x0, x1, y, to);
-  });
+  read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, float* to) { read_row_float(fb, x0, x1, y, to); });
 }
 
 void Device::read_depth(const Rect& rect, uint32_t* out) {
@@ -347,23 +333,6 @@ void Device::read_depth(const Rect& rect, uint32_t* out) {
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
   read_rows(fb, rect, 1, out, [&](int x0, int x1, int y, uint32_t* to) { read_row_depth(fb, x0, x1, y, to); });
-}
-
-void Device::read_stencil(const Rect& rect, uint8_t* out) {
-  if (impl_->target == nullptr) return;
-  finish();
-  const Framebuffer::Impl& fb = *impl_->target;
-  read_rows(fb, rect, 1, out, [&](int x0, int x1, int y, uint8_t* to) { read_row_stencil(fb, x0, x1, y, to); });
-}
-
-void Device::copy_plane(ColorPlane from, ColorPlane to, const Rect& rect) {
-  if (impl_->target == nullptr) return;
-  finish();
-  Framebuffer::Impl& fb = *impl_->target;
-  fb.need_color(kBackPlane | kFrontPlane);
-  impl_->pool.run(static_cast<uint32_t>(fb.tiles.size()), [&](uint32_t tile, int) {
-    copy_plane_tile(fb, tile, plane_index(from), plane_index(to), rect);
-  });
 }
 
 }  // namespace halfspace::raster

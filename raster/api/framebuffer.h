@@ -36,7 +36,6 @@ class Framebuffer {
   int width() const;
   int height() const;
   ColorFormat format() const;
-  int planes() const;
 
   struct Impl;
   Impl& impl() { return *impl_; }

@@ -13,7 +13,7 @@ namespace halfspace::raster {
 
 inline constexpr int kTileSize = 64;    // pixels a side
 inline constexpr int kBlockSize = 8;    // pixels a side; a tile has 8x8 blocks of 64 pixels
-inline constexpr int kMaxPlanes = 9;    // depth, 1/w, then up to 7 attributes
+inline constexpr int kMaxPlanes = 10;   // depth, 1/w, then up to 8 attributes
 
 // f(x, y) = f0 + dfdx * (x - x0) + dfdy * (y - y0), x and y in pixels at pixel centres.
 struct Plane {

@@ -235,7 +235,8 @@ HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, con
                               ? segment.plane_sources.data()[segment.cut_triangles.data()[ref.v[0]].source].provoking
                               : ref.v[ref.provoking];
   const VertexLayout& layout = draw.vertices.layout;
-  const float* color = Attributes(Head(draw.vertices, layout.stride(), vertex)) + layout.color;
+  const int place = ref.back_facing && layout.back_color >= 0 ? layout.back_color : layout.color;
+  const float* color = Attributes(Head(draw.vertices, layout.stride(), vertex)) + place;
   for (int k = 0; k < 4; ++k) out.flat[k][lane] = color_level(color[k], draw.program->params.rounds_to_bytes);
 }
 
@@ -255,7 +256,7 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
     VertexHead made[3];
     const VertexHead* corners[3];
     FindCorners(segment, draw.vertices, stride, ref, made, corners);
-    StoreCorners(corners, made, ref.cut, layout.attribute_count, lane, in);
+    StoreCorners(corners, made, ref, layout, lane, in);
     any_cut |= ref.cut;
   }
   SetBox(in, center_x, center_y, limit, out);

@@ -62,8 +62,8 @@ HWY_INLINE void FindCorners(const Segment& segment, const ShadedVertices& vertic
 }
 
 // A cut primitive brings its planes along: its attributes are not asked for. A made corner has the first one's.
-HWY_INLINE void StoreCorners(const VertexHead* const v[3], const VertexHead made[3], bool cut, int attribute_count,
-                             int lane, SetupInput& in) {
+HWY_INLINE void StoreCorners(const VertexHead* const v[3], const VertexHead made[3], const PrimitiveRef& ref,
+                             const VertexLayout& layout, int lane, SetupInput& in) {
   for (int k = 0; k < 3; ++k) {
     in.x[k][lane] = v[k]->x;
     in.y[k][lane] = v[k]->y;
@@ -72,10 +72,13 @@ HWY_INLINE void StoreCorners(const VertexHead* const v[3], const VertexHead made
     in.rest_x[k][lane] = v[k]->rest_x;
     in.rest_y[k][lane] = v[k]->rest_y;
   }
-  if (cut) return;
+  if (ref.cut) return;
+  const bool back = ref.back_facing && layout.back_color >= 0;
   for (int k = 0; k < 3; ++k) {
     const float* attributes = Attributes(v[k] == &made[k] ? v[0] : v[k]);
-    for (int a = 0; a < attribute_count; ++a) in.attribute[a][k][lane] = attributes[a];
+    for (int a = 0; a < layout.attribute_count; ++a) in.attribute[a][k][lane] = attributes[a];
+    if (HWY_LIKELY(!back)) continue;
+    for (int a = 0; a < 4; ++a) in.attribute[layout.color + a][k][lane] = attributes[layout.back_color + a];
   }
 }
 

@@ -32,6 +32,35 @@ Color first_color(const AttributeStream& stream) {
   return {clamp01(c[0]), clamp01(c[1]), clamp01(c[2]), clamp01(c[3])};
 }
 
+// The colour of every vertex's faces under lighting, if no vertex changes it.
+bool is_lit_alike(const DrawState& state, const VertexBatch& batch) {
+  const LightingState& lighting = state.lighting;
+  if (batch.material_index) return false;
+  const bool tracks =
+      lighting.color_material_front.any() || (lighting.two_sided && lighting.color_material_back.any());
+  if (tracks && !is_constant(batch.color, batch.count)) return false;
+  bool any_light = false;
+  for (const Light& light : lighting.lights) {
+    if (!light.enabled) continue;
+    any_light = true;
+    if (light.position[3] != 0) return false;
+  }
+  if (!any_light) return true;
+  return !lighting.local_viewer && is_constant(batch.normal, batch.count);
+}
+
+void choose_lit_color(const DrawState& state, const VertexBatch& batch, VertexLayout& layout) {
+  const bool two_sided = state.lighting.two_sided;
+  if (is_lit_alike(state, batch)) {
+    const VertexAttributes first = shade_attributes(state, batch);
+    layout.constant_color = first.color;
+    if (!two_sided || first.color == first.back_color) return;
+  }
+  layout.color = layout.attribute_count;
+  layout.attribute_count += 4;
+  if (two_sided) layout.back_color = 0;  // its place is behind all the others
+}
+
 bool has_projective_q(const AttributeStream& stream, uint32_t count) {
   if (!stream.data || stream.size < 4) return false;
   const uint32_t distinct = stream.stride == 0 ? 1 : count;
@@ -43,7 +72,9 @@ bool has_projective_q(const AttributeStream& stream, uint32_t count) {
   return false;
 }
 
-bool is_projective(const TextureUnitState& unit, const AttributeStream& stream, uint32_t count) {
+bool is_projective(const DrawState& state, const AttributeStream& stream, uint32_t count) {
+  const TextureUnitState& unit = state.texture;
+  if (state.tex_gen.coord[3].mode != TexGenMode::off) return true;
   if (unit.matrix_is_identity) return has_projective_q(stream, count);
   const auto& m = unit.matrix;
   const bool affine = m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
@@ -54,17 +85,21 @@ bool is_projective(const TextureUnitState& unit, const AttributeStream& stream, 
 
 VertexLayout choose_layout(const DrawState& state, const VertexBatch& batch) {
   VertexLayout layout;
-  if (batch.count == 0 || is_constant(batch.color, batch.count)) {
+  if (batch.count > 0 && state.lighting.enabled) {
+    choose_lit_color(state, batch, layout);
+  } else if (batch.count == 0 || is_constant(batch.color, batch.count)) {
     if (batch.count > 0) layout.constant_color = first_color(batch.color);
   } else {
     layout.color = layout.attribute_count;
     layout.attribute_count += 4;
   }
   if (state.texture.view) {
-    layout.projective = is_projective(state.texture, batch.tex_coord, batch.count);
+    layout.projective = is_projective(state, batch.tex_coord, batch.count);
     layout.tex_coord = layout.attribute_count;
     layout.attribute_count += layout.projective ? 3 : 2;
   }
+  if (state.fog.enabled) layout.fog = layout.attribute_count++;
+  if (layout.back_color >= 0) layout.back_color = layout.attribute_count;
   return layout;
 }
 

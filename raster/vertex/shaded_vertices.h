@@ -32,8 +32,16 @@ struct VertexLayout {
   int color = -1;          // 4 floats: r, g, b, a, clamped to [0, 1]
   int tex_coord = -1;      // 2 floats s, t; or 3 floats s, t, q when `projective`
   bool projective = false;
+  int fog = -1;            // 1 float: distance from the eye, |z_e|
+  // Behind the attributes, and none of them: 4 floats, which back-facing polygons have in place of `color`.
+  int back_color = -1;
   Color constant_color{1, 1, 1, 1};  // used (already clamped) when color == -1
-  size_t stride() const { return sizeof(VertexHead) + ((size_t(attribute_count) * 4 + 7) & ~size_t{7}); }
+  size_t stride() const { return sizeof(VertexHead) + ((size_t(float_count()) * 4 + 7) & ~size_t{7}); }
+  // Which float is attribute `a`, on a front- or back-facing polygon.
+  int place(int a, bool back) const {
+    return back && back_color >= 0 && a >= color && a < color + 4 ? back_color + a - color : a;
+  }
+  int float_count() const { return attribute_count + (back_color >= 0 ? 4 : 0); }
 };
 
 // Why a vertex may need more than a look: zero means inside the frustum, finite and w > 0.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "raster/vertex/lighting_job.h"
 #include "raster/vertex/shaded_vertices.h"
 
 namespace halfspace::raster {
@@ -28,14 +29,31 @@ struct WindowTransform {
   bool inside_guard;             // the whole viewport lies within the guard band
 };
 
+// Which coordinates are made, and from what (spec 2.11.4).
+struct TexGenJob {
+  enum Kind : uint8_t { kGiven, kPlane, kSphere };
+  bool any, sphere;
+  Kind kind[4];        // s, t, r, q
+  double plane[4][4];  // on object coordinates: eye planes are taken there
+};
+
 struct ShadeJob {
   double m[16];  // clip_from_object, column-major
   WindowTransform window;
   double texture_matrix[16];
   bool use_texture_matrix;
-  bool texture_projective;
+  int tex_coord_count;  // floats stored: s t, s t q or s t r q
+  TexGenJob tex_gen;
   StreamRef position, color, tex_coord;
   int color_offset, tex_coord_offset;  // bytes from the start of a record; -1: not there
+  // What follows matters where its flag says so.
+  bool needs_eye, needs_normal, normalize;
+  double eye[16];          // eye_from_object
+  float normal_matrix[9];  // column-major; of any length under `normalize`
+  StreamRef normal;
+  const LightingJob* lighting;     // null: the vertex's own colour
+  const uint32_t* material_index;  // with lighting->materials
+  int back_color_offset, fog_offset;
   unsigned char* records;
   size_t record_stride;
   uint16_t* outcodes;
@@ -50,6 +68,7 @@ inline constexpr float kMaxTexCoord = 1e30f;
 
 struct VertexKernels {
   void (*shade)(const ShadeJob& job, uint32_t first, uint32_t count);
+  void (*power)(const float* x, const float* s, float* out, size_t count);
 };
 
 }  // namespace halfspace::raster

@@ -2,9 +2,14 @@
 // bit.
 #include "raster/vertex/vertex_stage.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "raster/isa.h"
+#include "raster/vertex/effect_columns.h"
+#include "raster/vertex/lighting.h"
 #include "raster/vertex/vertex_kernels.h"
 #include "raster/vertex/window_transform.h"
 
@@ -23,8 +28,7 @@ using Vec = hn::Vec<Doubles>;
 using Mask = hn::Mask<Doubles>;
 using Words = hn::RebindToUnsigned<Doubles>;
 
-// Vertices taken at once: their columns stay in L1. A multiple of every vector length.
-constexpr uint32_t kGroup = 32;
+constexpr uint32_t kGroup = kVertexGroup;
 
 struct alignas(64) Group {
   float position[4][kGroup];
@@ -214,6 +218,13 @@ HWY_INLINE float bounded_double(double v) {
   return v < 0 ? -kMaxTexCoord : 0.0f;
 }
 
+// clang-format off: each uses what stands in those before it
+#include "raster/vertex/power.inl"
+#include "raster/vertex/lighting.inl"
+#include "raster/vertex/eye_space.inl"
+#include "raster/vertex/tex_gen.inl"
+// clang-format on
+
 HWY_INLINE void transform_tex_coord(const double* m, const float* v, float* out) {
   for (int r = 0; r < 4; ++r) {
     const double xy = m[r] * double(v[0]) + m[4 + r] * double(v[1]);
@@ -234,8 +245,10 @@ HWY_INLINE void shade_plain_tex_coords(const ShadeJob& job, uint32_t first, uint
   }
 }
 
-HWY_INLINE void shade_tex_coords(const ShadeJob& job, uint32_t first, uint32_t count) {
-  if (!job.use_texture_matrix && !job.texture_projective && job.tex_coord.size >= 2) {
+// `g`, `e`: what texgen makes coordinates from.
+HWY_INLINE void shade_tex_coords(const ShadeJob& job, uint32_t first, uint32_t count, const Group& g,
+                                 const EffectColumns* e) {
+  if (!job.use_texture_matrix && job.tex_coord_count == 2 && job.tex_coord.size >= 2 && !job.tex_gen.any) {
     return shade_plain_tex_coords(job, first, count);
   }
   const unsigned char* p = job.tex_coord.data + size_t{first} * job.tex_coord.stride;
@@ -245,11 +258,50 @@ HWY_INLINE void shade_tex_coords(const ShadeJob& job, uint32_t first, uint32_t c
     float v[4] = {0, 0, 0, 1};
     memcpy(v, p, bytes);
     for (int k = 0; k < 4; ++k) v[k] = bounded(v[k]);
+    if (job.tex_gen.any) generate_coords(job.tex_gen, g, *e, i, v);
     float result[4] = {v[0], v[1], v[2], v[3]};
     if (job.use_texture_matrix) transform_tex_coord(job.texture_matrix, v, result);
-    const float stq[3] = {result[0], result[1], result[3]};
-    memcpy(out, stq, (job.texture_projective ? 3 : 2) * sizeof(float));
+    if (job.tex_coord_count == 3) result[2] = result[3];
+    memcpy(out, result, size_t(job.tex_coord_count) * sizeof(float));
   }
+}
+
+// A colour a vertex from columns.
+HWY_INLINE void store_colors(const ShadeJob& job, const float (*columns)[kVertexGroup], int offset,
+                             uint32_t first, uint32_t count) {
+  unsigned char* out = job.records + size_t{first} * job.record_stride + offset;
+  for (uint32_t i = 0; i < count; ++i, out += job.record_stride) {
+    const float rgba[4] = {columns[0][i], columns[1][i], columns[2][i], columns[3][i]};
+    memcpy(out, rgba, sizeof rgba);
+  }
+}
+
+HWY_INLINE void shade_lit_colors(const ShadeJob& job, uint32_t first, uint32_t count, EffectColumns& e) {
+  const float fallback[4] = {0, 0, 0, 1};
+  if (job.lighting->tracks_color) load_columns(job.color, first, count, 4, fallback, e.color);
+  light_group(*job.lighting, job.material_index ? job.material_index + first : nullptr, count, e);
+  store_colors(job, e.lit[0], job.color_offset, first, count);
+  if (job.back_color_offset >= 0) store_colors(job, e.lit[1], job.back_color_offset, first, count);
+}
+
+HWY_INLINE void shade_fog_distances(const ShadeJob& job, uint32_t first, uint32_t count,
+                                    const EffectColumns& e) {
+  unsigned char* out = job.records + size_t{first} * job.record_stride + job.fog_offset;
+  for (uint32_t i = 0; i < count; ++i, out += job.record_stride) {
+    const double z = e.eye[2][i];
+    const float distance = bounded_double(z < 0 ? -z : z);
+    memcpy(out, &distance, sizeof distance);
+  }
+}
+
+// Lighting, fog and whatever else looks at eye coordinates; kept away from the draws that have none of it.
+HWY_NOINLINE void shade_effects(const ShadeJob& job, const Group& g, uint32_t first, uint32_t count) {
+  EffectColumns e;
+  if (job.needs_eye) eye_group(job, g, count, e);
+  if (job.needs_normal) normal_group(job, first, count, e);
+  if (job.lighting && job.color_offset >= 0) shade_lit_colors(job, first, count, e);
+  if (job.fog_offset >= 0) shade_fog_distances(job, first, count, e);
+  if (job.tex_gen.any && job.tex_coord_offset >= 0) shade_tex_coords(job, first, count, g, &e);
 }
 
 void shade(const ShadeJob& job, uint32_t first, uint32_t count) {
@@ -263,14 +315,16 @@ void shade(const ShadeJob& job, uint32_t first, uint32_t count) {
     for (uint32_t i = 0; i < kGroup; i += uint32_t(hn::Lanes(Doubles()))) shade_lanes(job, group, i, clip);
     if (!whole) memcpy(job.clip + first, tail, n * sizeof(ClipVertex));
     store_heads(job, first, n, group);
-    if (job.color_offset >= 0) shade_colors(job, first, n);
-    if (job.tex_coord_offset >= 0) shade_tex_coords(job, first, n);
+    if (job.color_offset >= 0 && !job.lighting) shade_colors(job, first, n);
+    if (job.tex_coord_offset >= 0 && !job.tex_gen.any) shade_tex_coords(job, first, n, group, nullptr);
+    if (job.needs_eye || job.needs_normal || job.lighting || job.tex_gen.any)
+      shade_effects(job, group, first, n);
     first += n;
     count -= n;
   }
 }
 
-VertexKernels kernels() { return {shade}; }
+VertexKernels kernels() { return {shade, power_columns}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace halfspace::raster
@@ -294,26 +348,128 @@ int byte_offset(int float_offset) {
   return float_offset < 0 ? -1 : int(sizeof(VertexHead)) + float_offset * int(sizeof(float));
 }
 
+constexpr float kDefaultNormal[4] = {0, 0, 1, 0};
+
+bool calls_for_effects(const DrawState& state, const VertexLayout& layout) {
+  return (state.lighting.enabled && layout.color >= 0) || layout.fog >= 0 ||
+         (layout.tex_coord >= 0 && state.tex_gen.any());
+}
+
+// With GL_NORMALIZE lengths do not matter: the matrix is scaled so that no float overflows.
+void store_normal_matrix(const DrawState& state, float (&out)[9]) {
+  double longest = 0;
+  for (double v : state.normal_from_object) longest = std::max(longest, std::fabs(v));
+  const bool scale = state.normalize && longest > 0 && std::isfinite(longest);
+  for (size_t i = 0; i < 9; ++i) {
+    const double v = scale ? state.normal_from_object[i] / longest : state.normal_from_object[i];
+    out[i] = float(std::clamp(v, -1e30, 1e30));
+  }
+}
+
+TexGenJob make_tex_gen_job(const DrawState& state) {
+  TexGenJob job{};
+  job.any = true;
+  for (size_t k = 0; k < 4; ++k) {
+    const TexGenCoord& coord = state.tex_gen.coord[k];
+    if (coord.mode == TexGenMode::off) continue;
+    job.kind[k] = coord.mode == TexGenMode::sphere_map ? TexGenJob::kSphere : TexGenJob::kPlane;
+    job.sphere |= coord.mode == TexGenMode::sphere_map;
+    const auto& m = state.eye_from_object;
+    for (size_t i = 0; i < 4; ++i) {
+      const auto& p = coord.eye_plane;
+      job.plane[k][i] =
+          coord.mode == TexGenMode::object_linear
+              ? coord.object_plane[i]
+              : p[0] * m[4 * i] + p[1] * m[4 * i + 1] + p[2] * m[4 * i + 2] + p[3] * m[4 * i + 3];
+    }
+  }
+  return job;
+}
+
+void prepare_effects(const DrawState& state, const VertexBatch& batch,
+                     std::span<const MaterialPair> materials, const VertexLayout& layout, ShadeJob& job,
+                     LightingJob& lighting) {
+  std::memcpy(job.eye, state.eye_from_object.data(), sizeof job.eye);
+  job.needs_eye = layout.fog >= 0;
+  if (layout.tex_coord >= 0 && state.tex_gen.any()) {
+    job.tex_gen = make_tex_gen_job(state);
+    job.needs_eye |= job.tex_gen.sphere;
+    job.needs_normal |= job.tex_gen.sphere;
+  }
+  if (state.lighting.enabled && layout.color >= 0) {
+    lighting =
+        make_lighting_job(state.lighting, batch.material_index ? materials : std::span<const MaterialPair>());
+    job.lighting = &lighting;
+    job.material_index = batch.material_index;
+    job.needs_eye |= lighting.needs_eye;
+    job.needs_normal |= lighting.light_count > 0;
+  }
+  if (!job.needs_normal) return;
+  job.normal = stream_ref(batch.normal, kDefaultNormal);
+  job.normalize = state.normalize;
+  store_normal_matrix(state, job.normal_matrix);
+}
+
 }  // namespace
 
-void shade_vertices(const DrawState& state, const VertexBatch& batch, uint32_t first, uint32_t count,
-                    ShadedVertices& out) {
+namespace {
+
+void run_job(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
+             int tex_coord_count, uint32_t first, uint32_t count, ShadedVertices& out) {
   ShadeJob job{};
   std::memcpy(job.m, state.clip_from_object.data(), sizeof job.m);
   job.window = make_window_transform(state.viewport);
   std::memcpy(job.texture_matrix, state.texture.matrix.data(), sizeof job.texture_matrix);
   job.use_texture_matrix = !state.texture.matrix_is_identity;
-  job.texture_projective = out.layout.projective;
+  job.tex_coord_count = tex_coord_count;
   job.position = stream_ref(batch.position, kDefaultCoord);
   job.color = stream_ref(batch.color, kDefaultColor);
   job.tex_coord = stream_ref(batch.tex_coord, kDefaultCoord);
   job.color_offset = byte_offset(out.layout.color);
+  job.back_color_offset = byte_offset(out.layout.back_color);
+  job.fog_offset = byte_offset(out.layout.fog);
   job.tex_coord_offset = byte_offset(out.layout.tex_coord);
   job.records = reinterpret_cast<unsigned char*>(out.records);
   job.record_stride = out.layout.stride();
   job.outcodes = out.outcodes.data();
   job.clip = out.clip.data();
+  LightingJob lighting;
+  if (calls_for_effects(state, out.layout))
+    prepare_effects(state, batch, materials, out.layout, job, lighting);
   vertex_kernels().shade(job, first, count);
+}
+
+}  // namespace
+
+void shade_vertices(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
+                    uint32_t first, uint32_t count, ShadedVertices& out) {
+  run_job(state, batch, materials, out.layout.projective ? 3 : 2, first, count, out);
+}
+
+VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& batch) {
+  struct {
+    VertexHead head;
+    float color[4], tex_coord[4], fog, back_color[4];
+  } record;
+  ShadedVertices one;
+  one.layout.color = 0;
+  one.layout.tex_coord = 4;
+  one.layout.fog = 8;
+  one.layout.back_color = one.layout.attribute_count = 9;
+  one.records = reinterpret_cast<std::byte*>(&record);
+  one.count = 1;
+  one.outcodes.resize(1);
+  one.clip.resize(1);
+  run_job(state, batch, {}, 4, 0, 1, one);
+  const auto color_of = [](const float(&c)[4]) { return Color{c[0], c[1], c[2], c[3]}; };
+  VertexAttributes result{color_of(record.color), color_of(record.color), {}, record.fog};
+  std::memcpy(result.tex_coord, record.tex_coord, sizeof result.tex_coord);
+  if (state.lighting.enabled && state.lighting.two_sided) result.back_color = color_of(record.back_color);
+  return result;
+}
+
+void power(const float* x, const float* s, float* out, size_t count) {
+  vertex_kernels().power(x, s, out, count);
 }
 
 }  // namespace halfspace::raster

@@ -1,18 +1,32 @@
 // The vertex stage: object coordinates to snapped window coordinates, SIMD over vertices.
 #pragma once
 
+#include <span>
+
 #include "raster/api/draw_packet.h"
 #include "raster/vertex/shaded_vertices.h"
 
 namespace halfspace::raster {
 
-// The layout `batch` needs under `state`: colour only if it varies, texture coordinates only if a texture is on,
-// q only if it can differ from 1.
+// The layout `batch` needs under `state`: colour only if it varies, texture coordinates only if a texture is
+// on, q only if it can differ from 1.
 VertexLayout choose_layout(const DrawState& state, const VertexBatch& batch);
 
-// Shades vertices [first, first + count) of the batch into out.records / outcodes / clip (sized by the caller to
-// batch.count). Ranges may be shaded by different threads at once.
-void shade_vertices(const DrawState& state, const VertexBatch& batch, uint32_t first, uint32_t count,
-                    ShadedVertices& out);
+// Shades vertices [first, first + count) of the batch into out.records / outcodes / clip (sized by the caller
+// to batch.count). Ranges may be shaded by different threads at once. materials: DrawPacket::materials.
+void shade_vertices(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
+                    uint32_t first, uint32_t count, ShadedVertices& out);
+inline void shade_vertices(const DrawState& state, const VertexBatch& batch, uint32_t first, uint32_t count,
+                           ShadedVertices& out) {
+  shade_vertices(state, batch, {}, first, count, out);
+}
+
+// The first vertex's attributes, whatever the draw state would ask for (glRasterPos, spec 2.13).
+struct VertexAttributes {
+  Color color, back_color;  // lit if lighting is on; in [0, 1]
+  float tex_coord[4];       // s t r q, generated and through the texture matrix
+  float eye_distance;       // |z_e|
+};
+VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& batch);
 
 }  // namespace halfspace::raster
