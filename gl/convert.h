@@ -72,6 +72,16 @@ inline std::array<GLfloat, 4> light_model_floats(GLenum pname, const GLint* para
   return v;
 }
 
+// glTexGen{i,f}v: a plane has four values, a mode one.
+template <typename From>
+std::array<GLdouble, 4> tex_gen_doubles(GLenum pname, const From* params) {
+  const bool plane = pname == GL_OBJECT_PLANE || pname == GL_EYE_PLANE;
+  const size_t count = plane ? 4 : pname == GL_TEXTURE_GEN_MODE ? 1 : 0;
+  std::array<GLdouble, 4> v{};
+  for (size_t i = 0; i < count; ++i) v[i] = static_cast<GLdouble>(params[i]);
+  return v;
+}
+
 // glMaterialiv: colours are normalised, shininess and colour indices are not (spec 2.14.2). Reads as many
 // values as the pname has, and none for a pname that is none.
 inline std::array<GLfloat, 4> material_floats(GLenum pname, const GLint* params) {

@@ -837,6 +837,47 @@ HALFSPACE_ENTRY void GLAPIENTRY glTexEnviv(GLenum target, GLenum pname, const GL
   HALFSPACE_CALL(tex_enviv, target, pname, params);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glTexGendv(GLenum coord, GLenum pname, const GLdouble* params) {
+  HALFSPACE_CALL(tex_gen, coord, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexGeniv(GLenum coord, GLenum pname, const GLint* params) {
+  const auto converted = tex_gen_doubles(pname, params);
+  HALFSPACE_CALL(tex_gen, coord, pname, converted.data());
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexGenfv(GLenum coord, GLenum pname, const GLfloat* params) {
+  const auto converted = tex_gen_doubles(pname, params);
+  HALFSPACE_CALL(tex_gen, coord, pname, converted.data());
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexGeni(GLenum coord, GLenum pname, GLint param) {
+  const GLdouble value = static_cast<GLdouble>(param);
+  HALFSPACE_CALL(tex_gen, coord, scalar_pname<GL_OBJECT_PLANE, GL_EYE_PLANE>(pname), &value);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexGenf(GLenum coord, GLenum pname, GLfloat param) {
+  const GLdouble value = static_cast<GLdouble>(param);
+  HALFSPACE_CALL(tex_gen, coord, scalar_pname<GL_OBJECT_PLANE, GL_EYE_PLANE>(pname), &value);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexGend(GLenum coord, GLenum pname, GLdouble param) {
+  const GLdouble value = param;
+  HALFSPACE_CALL(tex_gen, coord, scalar_pname<GL_OBJECT_PLANE, GL_EYE_PLANE>(pname), &value);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetTexGenfv(GLenum coord, GLenum pname, GLfloat* params) {
+  HALFSPACE_CALL(get_tex_genfv, coord, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetTexGeniv(GLenum coord, GLenum pname, GLint* params) {
+  HALFSPACE_CALL(get_tex_geniv, coord, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetTexGendv(GLenum coord, GLenum pname, GLdouble* params) {
+  HALFSPACE_CALL(get_tex_gendv, coord, pname, params);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glGetTexParameterfv(GLenum target, GLenum pname, GLfloat* params) {
   HALFSPACE_CALL(get_tex_parameterfv, target, pname, params);
 }

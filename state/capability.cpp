@@ -28,6 +28,10 @@ constexpr Capability kCapabilities[] = {
     LIVE(GL_SCISSOR_TEST, scissor.test, kDirtyRaster),
     LIVE(GL_TEXTURE_1D, texture.enabled_1d, kDirtyTexture),
     LIVE(GL_TEXTURE_2D, texture.enabled_2d, kDirtyTexture),
+    LIVE(GL_TEXTURE_GEN_S, tex_gen.coord[0].enabled, kDirtyTexture | kDirtyTransform),
+    LIVE(GL_TEXTURE_GEN_T, tex_gen.coord[1].enabled, kDirtyTexture | kDirtyTransform),
+    LIVE(GL_TEXTURE_GEN_R, tex_gen.coord[2].enabled, kDirtyTexture),
+    LIVE(GL_TEXTURE_GEN_Q, tex_gen.coord[3].enabled, kDirtyTexture),
     LIVE(GL_COLOR_MATERIAL, lighting.color_material, kDirtyLighting),
     LIVE(GL_LIGHT0, lighting.lights[0].enabled, kDirtyLighting),
     LIVE(GL_LIGHT1, lighting.lights[1].enabled, kDirtyLighting),
@@ -76,10 +80,6 @@ constexpr Capability kCapabilities[] = {
     IDLE(GL_POLYGON_SMOOTH),
     IDLE(GL_POLYGON_STIPPLE),
     IDLE(GL_STENCIL_TEST),
-    IDLE(GL_TEXTURE_GEN_Q),
-    IDLE(GL_TEXTURE_GEN_R),
-    IDLE(GL_TEXTURE_GEN_S),
-    IDLE(GL_TEXTURE_GEN_T),
 };
 #undef LIVE
 #undef IDLE
@@ -104,7 +104,14 @@ void report_idle(const Capability& capability) {
 
 void set_capability(Context& context, GLenum name, bool on, const char* operation) {
   const Capability* capability = find_capability(name);
-  if (!capability) return record_error(context, GL_INVALID_ENUM, operation);
+  if (!capability) {
+    // Client arrays too: before they had commands of their own (GL_EXT_vertex_array) they went by glEnable, and
+    // programs of that time, and others' libraries, still hold to it.
+    ClientArray* array = find_client_array(context.vertex_array, name);
+    if (!array) return record_error(context, GL_INVALID_ENUM, operation);
+    array->enabled = on;
+    return;
+  }
   if (!capability->bit) {
     context.capability.idle[index_of(*capability)] = on;
     if (on) report_idle(*capability);
@@ -148,7 +155,7 @@ void enable(Context& context, GLenum cap) { set_capability(context, cap, true, "
 
 void disable(Context& context, GLenum cap) { set_capability(context, cap, false, "disable"); }
 
-// Client arrays can be asked for as well (spec 6.1.1), though glEnable does not know them.
+// Client arrays can be asked for as well (spec 6.1.1).
 GLboolean is_enabled(Context& context, GLenum cap) {
   if (const Capability* capability = find_capability(cap)) return capability_enabled(context, *capability);
   if (const ClientArray* array = find_client_array(context.vertex_array, cap)) return array->enabled;

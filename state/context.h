@@ -20,6 +20,7 @@
 #include "state/pixel_transfer.h"
 #include "state/polygon.h"
 #include "state/scissor.h"
+#include "state/tex_gen.h"
 #include "state/texture.h"
 #include "state/transform.h"
 #include "state/vertex_array.h"
@@ -55,6 +56,7 @@ struct Context {
   ColorBufferState color_buffer;
   HintState hint;
   TextureState texture;
+  TexGenState tex_gen;
   PixelStoreState pixel_store;
   PixelTransferState pixel_transfer;
   PixelMapState pixel_map;

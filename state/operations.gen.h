@@ -71,6 +71,10 @@ struct OperationTable {
   void (*tex_parameteriv)(Context&, GLenum target, GLenum pname, const GLint* params);
   void (*tex_envfv)(Context&, GLenum target, GLenum pname, const GLfloat* params);
   void (*tex_enviv)(Context&, GLenum target, GLenum pname, const GLint* params);
+  void (*tex_gen)(Context&, GLenum coord, GLenum pname, const GLdouble* params);
+  void (*get_tex_genfv)(Context&, GLenum coord, GLenum pname, GLfloat* params);
+  void (*get_tex_geniv)(Context&, GLenum coord, GLenum pname, GLint* params);
+  void (*get_tex_gendv)(Context&, GLenum coord, GLenum pname, GLdouble* params);
   void (*get_tex_parameterfv)(Context&, GLenum target, GLenum pname, GLfloat* params);
   void (*get_tex_parameteriv)(Context&, GLenum target, GLenum pname, GLint* params);
   void (*get_tex_level_parameterfv)(Context&, GLenum target, GLint level, GLenum pname, GLfloat* params);
@@ -195,6 +199,10 @@ void tex_parameterfv(Context&, GLenum target, GLenum pname, const GLfloat* param
 void tex_parameteriv(Context&, GLenum target, GLenum pname, const GLint* params);
 void tex_envfv(Context&, GLenum target, GLenum pname, const GLfloat* params);
 void tex_enviv(Context&, GLenum target, GLenum pname, const GLint* params);
+void tex_gen(Context&, GLenum coord, GLenum pname, const GLdouble* params);
+void get_tex_genfv(Context&, GLenum coord, GLenum pname, GLfloat* params);
+void get_tex_geniv(Context&, GLenum coord, GLenum pname, GLint* params);
+void get_tex_gendv(Context&, GLenum coord, GLenum pname, GLdouble* params);
 void get_tex_parameterfv(Context&, GLenum target, GLenum pname, GLfloat* params);
 void get_tex_parameteriv(Context&, GLenum target, GLenum pname, GLint* params);
 void get_tex_level_parameterfv(Context&, GLenum target, GLint level, GLenum pname, GLfloat* params);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "state/context.h"
 #include "state/get.h"
@@ -45,6 +46,29 @@ std::array<double, 9> normal_matrix(const Matrix& m) {
     for (double& c : cofactors) c = -c;
   }
   return cofactors;
+}
+
+// Solves x M = p by elimination with the largest pivot.
+std::array<double, 4> eye_plane(const Matrix& m, const double* p) {
+  double a[4][5];  // row i: the sum over j of x_j M_ji = p_i
+  for (size_t i = 0; i < 4; ++i) {
+    for (size_t j = 0; j < 4; ++j) a[i][j] = double(m[4 * i + j]);
+    a[i][4] = p[i];
+  }
+  for (size_t k = 0; k < 4; ++k) {
+    size_t pivot = k;
+    for (size_t i = k + 1; i < 4; ++i) {
+      if (std::fabs(a[i][k]) > std::fabs(a[pivot][k])) pivot = i;
+    }
+    if (!(std::fabs(a[pivot][k]) > 0)) return {p[0], p[1], p[2], p[3]};
+    std::swap(a[k], a[pivot]);
+    for (size_t i = 0; i < 4; ++i) {
+      if (i == k) continue;
+      const double factor = a[i][k] / a[k][k];
+      for (size_t j = k; j < 5; ++j) a[i][j] -= factor * a[k][j];
+    }
+  }
+  return {a[0][4] / a[0][0], a[1][4] / a[1][1], a[2][4] / a[2][2], a[3][4] / a[3][3]};
 }
 
 namespace {

@@ -35,6 +35,9 @@ struct TransformState {
 // The inverse transpose of the upper left 3x3 of `m`, column-major; without an inverse, something finite.
 std::array<double, 9> normal_matrix(const Matrix& m);
 
+// The plane `p` of object coordinates, in eye coordinates: p M^-1 (spec 2.11.4, 2.12). As given where M has no inverse.
+std::array<double, 4> eye_plane(const Matrix& m, const double* p);
+
 // a * b, summed in double.
 std::array<double, 16> multiply(const double* a, const double* b);
 

@@ -74,8 +74,9 @@ std::array<double, 16> widen(const Matrix& m) {
   return wide;
 }
 
-// Normals are used by lighting.
-bool needs_normals(const Context& context) { return context.lighting.enabled; }
+bool needs_normals(const Context& context) {
+  return context.lighting.enabled || generates_from_normals(context.tex_gen);
+}
 
 void derive_transform(const Context& context, DrawState& out) {
   const TransformState& t = context.transform;
@@ -132,7 +133,6 @@ void derive_fragment(const Context& context, DrawState& out) {
   out.alpha_test = {c.alpha_test, compare_func_of(c.alpha_func), c.alpha_reference};
   out.blend = {c.blend, blend_factor_of(c.blend_src, has_alpha), blend_factor_of(c.blend_dst, has_alpha)};
   out.color_mask = c.mask;
-  out.color_targets = draw_planes(context);
 }
 
 void derive_texture(Context& context, DrawState& out) {
@@ -143,6 +143,7 @@ void derive_texture(Context& context, DrawState& out) {
   const Matrix& matrix = context.transform.texture.top();
   unit.matrix = widen(matrix);
   unit.matrix_is_identity = matrix == kIdentity;
+  out.tex_gen = derive_tex_gen(context.tex_gen);
 }
 
 }  // namespace
@@ -191,11 +192,9 @@ raster::Accuracy accuracy_from_environment() {
 }
 
 void submit(Context& context, raster::DrawPacket& packet) try {
-  if (!context.drawable) return;
+  if (!context.drawable || context.color_buffer.draw_buffer == GL_NONE) return;
   if (!packet.state) packet.state = derive(context);
-  flush_vertices(context);  // what waits was drawn before
-  context.device.begin_pass(&context.drawable->framebuffer(packet.state->color_targets));
-  context.device.draw(packet);
+  draw_to_buffers(context, context.device, [&](raster::Device& device) { device.draw(packet); });
 } catch (const std::bad_alloc&) {
   record_error(context, GL_OUT_OF_MEMORY, "a draw");
 }

@@ -18,25 +18,23 @@ class MemoryDrawable : public Drawable {
  public:
   MemoryDrawable(const VisualConfig& config, int width, int height)
       : config_(config),
-        framebuffer_(width, height, raster::ColorFormat::rgba8, config.double_buffered ? 2 : 1) {}
+        front_(width, height, raster::ColorFormat::rgba8),
+        back_(width, height, raster::ColorFormat::rgba8) {}
   const VisualConfig& visual() const override { return config_; }
-  int width() const override { return framebuffer_.width(); }
-  int height() const override { return framebuffer_.height(); }
-  raster::Framebuffer& framebuffer(uint8_t planes) override {
-    asked = uint8_t(asked | planes);
-    return framebuffer_;
-  }
-  void finish(raster::Device& device, uint8_t planes) override {
+  int width() const override { return front_.width(); }
+  int height() const override { return front_.height(); }
+  raster::Framebuffer& front() override { return front_; }
+  raster::Framebuffer& back() override { return config_.double_buffered ? back_ : front_; }
+  void finish(raster::Device& device, raster::Framebuffer& target) override {
     device.finish();
-    finished.push_back(planes);
+    finished.push_back(&target);
   }
 
-  std::vector<int> finished;  // the planes each finish was about
-  uint8_t asked = 0;          // all planes that were ever wanted
+  std::vector<raster::Framebuffer*> finished;
 
  private:
   VisualConfig config_;
-  raster::Framebuffer framebuffer_;
+  raster::Framebuffer front_, back_;
 };
 
 inline VisualConfig double_buffered() {
@@ -64,6 +62,13 @@ inline Snapshot take_snapshot(const Context& context) {
     row.read(context, values.data());
     values.resize(row.count);
     snapshot.rows[row.name] = values;
+  }
+  for (GLenum coord = GL_S; coord <= GL_Q; ++coord) {
+    for (GLenum pname : {GL_TEXTURE_GEN_MODE, GL_OBJECT_PLANE, GL_EYE_PLANE}) {
+      double values[4] = {};
+      op::get_tex_gendv(const_cast<Context&>(context), coord, pname, values);
+      snapshot.rows[coord << 16 | pname].assign(values, values + 4);
+    }
   }
   // Lights have no rows of their own.
   for (int i = 0; i < raster::kMaxLights; ++i) {
