@@ -61,6 +61,11 @@ void tex_enviv(Context& context, GLenum target, GLenum pname, const GLint* param
   Compiled<&OperationTable::tex_enviv>::execute(context, target, pname, params);
 }
 
+void tex_gen(Context& context, GLenum coord, GLenum pname, const GLdouble* params) {
+  compiling(context, [&] { Compiled<&OperationTable::tex_gen>::record(context, coord, pname, keep(context, params, pname_values(pname))); });
+  Compiled<&OperationTable::tex_gen>::execute(context, coord, pname, params);
+}
+
 void pixel_mapfv(Context& context, GLenum map, GLsizei size, const GLfloat* values) {
   compiling(context, [&] { Compiled<&OperationTable::pixel_mapfv>::record(context, map, size, keep(context, values, count_of(size))); });
   Compiled<&OperationTable::pixel_mapfv>::execute(context, map, size, values);
@@ -141,6 +146,10 @@ const OperationTable kCompileTable = {
     .tex_parameteriv = compile::tex_parameteriv,
     .tex_envfv = compile::tex_envfv,
     .tex_enviv = compile::tex_enviv,
+    .tex_gen = compile::tex_gen,
+    .get_tex_genfv = Compiled<&OperationTable::get_tex_genfv>::pass,
+    .get_tex_geniv = Compiled<&OperationTable::get_tex_geniv>::pass,
+    .get_tex_gendv = Compiled<&OperationTable::get_tex_gendv>::pass,
     .get_tex_parameterfv = Compiled<&OperationTable::get_tex_parameterfv>::pass,
     .get_tex_parameteriv = Compiled<&OperationTable::get_tex_parameteriv>::pass,
     .get_tex_level_parameterfv = Compiled<&OperationTable::get_tex_level_parameterfv>::pass,
