@@ -407,10 +407,15 @@ TEST_F(ImmediateTest, OutOfMemoryIsAnErrorAndTheNextDrawIsRight) {
   EXPECT_EQ(recorded_draws.size(), 1u);
 }
 
-TEST_F(ImmediateTest, DrawBufferNoneDrawsNothing) {
+// Depth and stencil are still drawn (spec 4.2.1).
+TEST_F(ImmediateTest, DrawBufferNoneDrawsNoColor) {
+  rect(0, 0, 1, 1);
   op::draw_buffer(*context, GL_NONE);
   rect(0, 0, 1, 1);
-  EXPECT_TRUE(recorded_draws.empty());
+  flush_vertices(*context);
+  ASSERT_EQ(recorded_draws.size(), 2u);
+  EXPECT_NE(recorded_draws[0].state->color_targets, 0);
+  EXPECT_EQ(recorded_draws[1].state->color_targets, 0);
   EXPECT_EQ(op::get_error(*context), GLenum(GL_NO_ERROR));
 }
 
