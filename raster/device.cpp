@@ -23,6 +23,7 @@ namespace {
 // Work kept back before it is executed, so that memory stays bounded whatever a frame draws.
 constexpr size_t kMaxPendingBytes = size_t{1} << 18;  // shaded vertices
 constexpr size_t kMaxPendingPrimitives = size_t{1} << 13;
+constexpr size_t kMaxPendingTextureBytes = size_t{128} << 20;  // of several textures; a single one may be larger
 constexpr uint32_t kPartPrimitives = 4096;   // a larger draw is taken in parts
 constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
 constexpr uint32_t kVerticesPerTask = 2048;
@@ -100,6 +101,9 @@ struct Device::Impl {
   std::deque<PipelineProgram> programs;
   std::shared_ptr<const DrawState> program_state;
   VertexLayout program_layout;
+  // Textures that pending draws hold on to, by level 0; the program that replaced or deleted one cannot free it.
+  std::vector<const TextureLevel*> textures;
+  size_t texture_bytes = 0;
   Arena arena;
   std::vector<uint16_t> outcodes;
   std::vector<ClipVertex> clip;
@@ -108,6 +112,7 @@ struct Device::Impl {
   Segment& new_segment();
   Segment& open_segment();
   const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout);
+  void note_texture(const TextureView& view);
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void draw(const DrawPacket& packet);
@@ -133,12 +138,20 @@ Segment& Device::Impl::open_segment() {
   return segment;
 }
 
+void Device::Impl::note_texture(const TextureView& view) {
+  const TextureLevel* base = view.levels[0].get();
+  if (std::find(textures.begin(), textures.end(), base) != textures.end()) return;
+  textures.push_back(base);
+  texture_bytes += view.bytes();
+}
+
 const PipelineProgram& Device::Impl::program_for(const std::shared_ptr<const DrawState>& state,
                                                  const VertexLayout& layout) {
   if (programs.empty() || program_state != state || !same_layout(program_layout, layout)) {
     programs.push_back(build_program(*state, layout, target->format, fuse));
     program_state = state;
     program_layout = layout;
+    if (state->texture.view != nullptr) note_texture(*state->texture.view);
   }
   return programs.back();
 }
@@ -229,7 +242,9 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.vertices.clip.swap(clip);
   size_t pending_primitives = 0;
   for (const Segment* segment : pending) pending_primitives += segment->primitives.size();
-  if (arena.bytes_in_use() > kMaxPendingBytes || pending_primitives > kMaxPendingPrimitives) execute(nullptr);
+  const bool many_texels = textures.size() > 1 && texture_bytes > kMaxPendingTextureBytes;
+  if (arena.bytes_in_use() > kMaxPendingBytes || many_texels || pending_primitives > kMaxPendingPrimitives)
+    execute(nullptr);
 }
 
 void Device::Impl::discard() {
@@ -243,6 +258,8 @@ void Device::Impl::discard() {
   draws.clear();
   programs.clear();
   program_state.reset();
+  textures.clear();
+  texture_bytes = 0;
   arena.reset();
 }
 

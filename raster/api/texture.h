@@ -18,6 +18,8 @@ struct Sampler {
   MipMode mip = MipMode::linear;
   Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
   Color border_color;
+  // The texture is one-dimensional: t counts neither for the texel (wrap_t must be repeat) nor for the level.
+  bool one_dimensional = false;
   bool operator==(const Sampler&) const = default;
 };
 
@@ -31,10 +33,13 @@ struct TextureView {
   int level_count = 0;
   Sampler sampler;
   BaseFormat base_format = BaseFormat::rgba;
+
+  size_t bytes() const;  // of memory that the levels take
 };
 
 // A texture's levels. Each level is defined alone, as GL does it; whether they fit together is the caller's
-// question (spec 3.8.8 completeness). One-dimensional textures have height 1.
+// question (spec 3.8.8 completeness). One-dimensional textures have height 1; with a border, the rows below and
+// above hold the same texels as the row itself.
 //
 // Levels are copied on write: a view taken earlier keeps the texels it was taken with.
 // Not thread-safe; out of memory throws std::bad_alloc and leaves the texture as it was.

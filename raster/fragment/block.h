@@ -23,6 +23,7 @@ struct FragmentParams {
   LevelRef levels[kMaxTextureLevels];
   int level_count = 0;
   Sampler sampler;
+  double lod_scale[2] = {};  // texels of level 0 that s and t in [0, 1] span, as far as they count for lambda
   float magnify_below = 0;  // lambda at or under which mag is used: 0 or 0.5 (spec 3.8.9)
   int color_plane = 0;      // first of four planes
   int tex_plane = 0;        // s, t [, q]

@@ -131,6 +131,9 @@ void set_texture_params(const DrawState& state, FragmentParams& params) {
     params.levels[i] = {level.base, level.pitch, level.width, level.height, static_cast<float>(level.width),
                         static_cast<float>(level.height), level.opaque};
   }
+  // Spec 3.8.8: v(x, y) is 0 for a one-dimensional texture.
+  params.lod_scale[0] = view.levels[0]->width;
+  params.lod_scale[1] = view.sampler.one_dimensional ? 0 : view.levels[0]->height;
   // Spec 3.8.9: c = 0.5 if mag is LINEAR and min is NEAREST_MIPMAP_*, else 0.
   const bool half = view.sampler.mag == Filter::linear && view.sampler.min == Filter::nearest &&
                     view.sampler.mip != MipMode::none;

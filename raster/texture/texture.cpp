@@ -172,6 +172,15 @@ void fill_skirt(TextureLevel& level, const SkirtKey& key) {
 
 }  // namespace
 
+size_t TextureView::bytes() const {
+  size_t sum = 0;
+  for (int n = 0; n < level_count; ++n) {
+    const TextureLevel& level = *levels[size_t(n)];
+    sum += storage_texels(level.width, level.height) * sizeof(uint32_t);
+  }
+  return sum;
+}
+
 struct Texture::Impl {
   std::array<std::shared_ptr<TextureLevel>, kMaxTextureLevels> levels;
   std::shared_ptr<const TextureView> cached_view;

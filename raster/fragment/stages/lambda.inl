@@ -40,13 +40,11 @@ struct Lambda {
     const int divisor = kProjective ? first + 2 : 1;
     const bool affine = !kProjective && (setup.variant[k] & kAffine) != 0;
     const VD q = once.divisor.At(i);
-    const double scale[2] = {static_cast<double>(c.params->levels[0].width),
-                             static_cast<double>(c.params->levels[0].height)};
     VD x2, y2;  // squared lengths of the gradients along x and y
     for (int p = 0; p < kDoubleParts; ++p) x2.part[p] = y2.part[p] = hn::Zero(DD());
     for (int axis = 0; axis < 2; ++axis) {
       const VD numerator = axis == 0 ? once.s.At(i) : once.t.At(i);
-      const auto size = hn::Set(DD(), scale[axis]);
+      const auto size = hn::Set(DD(), c.params->lod_scale[axis]);
       for (int p = 0; p < kDoubleParts; ++p) {
         auto gx = hn::Set(DD(), setup.dfdx[first + axis][k]);
         auto gy = hn::Set(DD(), setup.dfdy[first + axis][k]);
