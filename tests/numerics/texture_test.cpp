@@ -373,5 +373,27 @@ TEST(TextureView, KeepsItsTexels) {
   EXPECT_EQ(bytes_at(canvas.read(), 2, 2), (std::array<int, 4>{1, 2, 3, 4}));
 }
 
+// Drawing with a new texture each time and deleting it at once: what draws hold back stays bounded.
+TEST(TextureView, PendingDrawsLetGoOfOldTextures) {
+  constexpr int kTextures = 200, kTexels = 512;  // 1 MB each
+  const std::vector<Vertex> quad = snapped_quad(0, 0, 256 * kSize, 256 * kSize, kSize);
+  std::vector<std::weak_ptr<const TextureView>> views;
+  Canvas canvas(kSize, kSize);
+  for (int i = 0; i < kTextures; ++i) {
+    const std::vector<uint8_t> texels(size_t{kTexels} * kTexels * 4, uint8_t(i));
+    Texture texture;
+    texture.define_level(0, kTexels, kTexels, 0, BaseFormat::rgba, texels.data(), kTexels * 4);
+    const auto view = texture.view(sampler_of(Filter::nearest, Wrap::repeat), 1);
+    views.push_back(view);
+    canvas.draw(replace_state(kSize, view), Primitive::quads, quad);
+  }
+  int alive = 0;
+  for (const auto& view : views) alive += !view.expired();
+  EXPECT_LT(alive, 140);
+  EXPECT_GT(alive, 0);
+  const int last = kTextures - 1;
+  EXPECT_EQ(bytes_at(canvas.read(), 2, 2), (std::array<int, 4>{last, last, last, last}));
+}
+
 }  // namespace
 }  // namespace halfspace::test
