@@ -789,8 +789,36 @@ HALFSPACE_ENTRY GLboolean GLAPIENTRY glIsTexture(GLuint texture) {
   return HALFSPACE_CALL(is_texture, texture);
 }
 
+HALFSPACE_ENTRY GLboolean GLAPIENTRY glAreTexturesResidentEXT(GLsizei n, const GLuint* textures, GLboolean* residences) {
+  return HALFSPACE_CALL(are_textures_resident, n, textures, residences);
+}
+
+HALFSPACE_ENTRY GLboolean GLAPIENTRY glAreTexturesResident(GLsizei n, const GLuint* textures, GLboolean* residences) {
+  return HALFSPACE_CALL(are_textures_resident, n, textures, residences);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPrioritizeTextures(GLsizei n, const GLuint* textures, const GLfloat* priorities) {
+  HALFSPACE_CALL(prioritize_textures, n, textures, priorities);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPrioritizeTexturesEXT(GLsizei n, const GLuint* textures, const GLclampf* priorities) {
+  HALFSPACE_CALL(prioritize_textures, n, textures, priorities);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexImage1D(GLenum target, GLint level, GLint internalformat, GLsizei width, GLint border, GLenum format, GLenum type, const GLvoid* pixels) {
+  HALFSPACE_CALL(tex_image_1d, target, level, internalformat, width, border, format, type, pixels);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glTexImage2D(GLenum target, GLint level, GLint internalformat, GLsizei width, GLsizei height, GLint border, GLenum format, GLenum type, const GLvoid* pixels) {
   HALFSPACE_CALL(tex_image_2d, target, level, internalformat, width, height, border, format, type, pixels);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexSubImage1D(GLenum target, GLint level, GLint xoffset, GLsizei width, GLenum format, GLenum type, const GLvoid* pixels) {
+  HALFSPACE_CALL(tex_sub_image_1d, target, level, xoffset, width, format, type, pixels);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexSubImage1DEXT(GLenum target, GLint level, GLint xoffset, GLsizei width, GLenum format, GLenum type, const GLvoid* pixels) {
+  HALFSPACE_CALL(tex_sub_image_1d, target, level, xoffset, width, format, type, pixels);
 }
 
 HALFSPACE_ENTRY void GLAPIENTRY glTexSubImage2D(GLenum target, GLint level, GLint xoffset, GLint yoffset, GLsizei width, GLsizei height, GLenum format, GLenum type, const GLvoid* pixels) {
@@ -799,6 +827,38 @@ HALFSPACE_ENTRY void GLAPIENTRY glTexSubImage2D(GLenum target, GLint level, GLin
 
 HALFSPACE_ENTRY void GLAPIENTRY glTexSubImage2DEXT(GLenum target, GLint level, GLint xoffset, GLint yoffset, GLsizei width, GLsizei height, GLenum format, GLenum type, const GLvoid* pixels) {
   HALFSPACE_CALL(tex_sub_image_2d, target, level, xoffset, yoffset, width, height, format, type, pixels);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyTexImage1D(GLenum target, GLint level, GLenum internalformat, GLint x, GLint y, GLsizei width, GLint border) {
+  HALFSPACE_CALL(copy_tex_image_1d, target, level, internalformat, x, y, width, border);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyTexImage1DEXT(GLenum target, GLint level, GLenum internalformat, GLint x, GLint y, GLsizei width, GLint border) {
+  HALFSPACE_CALL(copy_tex_image_1d, target, level, internalformat, x, y, width, border);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyTexImage2D(GLenum target, GLint level, GLenum internalformat, GLint x, GLint y, GLsizei width, GLsizei height, GLint border) {
+  HALFSPACE_CALL(copy_tex_image_2d, target, level, internalformat, x, y, width, height, border);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyTexImage2DEXT(GLenum target, GLint level, GLenum internalformat, GLint x, GLint y, GLsizei width, GLsizei height, GLint border) {
+  HALFSPACE_CALL(copy_tex_image_2d, target, level, internalformat, x, y, width, height, border);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyTexSubImage1D(GLenum target, GLint level, GLint xoffset, GLint x, GLint y, GLsizei width) {
+  HALFSPACE_CALL(copy_tex_sub_image_1d, target, level, xoffset, x, y, width);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyTexSubImage1DEXT(GLenum target, GLint level, GLint xoffset, GLint x, GLint y, GLsizei width) {
+  HALFSPACE_CALL(copy_tex_sub_image_1d, target, level, xoffset, x, y, width);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyTexSubImage2D(GLenum target, GLint level, GLint xoffset, GLint yoffset, GLint x, GLint y, GLsizei width, GLsizei height) {
+  HALFSPACE_CALL(copy_tex_sub_image_2d, target, level, xoffset, yoffset, x, y, width, height);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyTexSubImage2DEXT(GLenum target, GLint level, GLint xoffset, GLint yoffset, GLint x, GLint y, GLsizei width, GLsizei height) {
+  HALFSPACE_CALL(copy_tex_sub_image_2d, target, level, xoffset, yoffset, x, y, width, height);
 }
 
 HALFSPACE_ENTRY void GLAPIENTRY glTexParameterf(GLenum target, GLenum pname, GLfloat param) {

@@ -30,10 +30,26 @@ void mult_matrix(Context& context, const GLdouble* m) {
   Compiled<&OperationTable::mult_matrix>::execute(context, m);
 }
 
+void prioritize_textures(Context& context, GLsizei n, const GLuint* names, const GLclampf* priorities) {
+  compiling(context, [&] { Compiled<&OperationTable::prioritize_textures>::record(context, n, keep(context, names, count_of(n)), keep(context, priorities, count_of(n))); });
+  Compiled<&OperationTable::prioritize_textures>::execute(context, n, names, priorities);
+}
+
+void tex_image_1d(Context& context, GLenum target, GLint level, GLint internal_format, GLsizei width, GLint border, GLenum format, GLenum type, const GLvoid* pixels) {
+  if (is_proxy(target)) return Compiled<&OperationTable::tex_image_1d>::pass(context, target, level, internal_format, width, border, format, type, pixels);
+  compiling(context, [&] { Compiled<&OperationTable::tex_image_1d>::record_image(context, target, level, internal_format, width, border, format, type, keep_image(context, width, 1, format, type, pixels)); });
+  Compiled<&OperationTable::tex_image_1d>::execute(context, target, level, internal_format, width, border, format, type, pixels);
+}
+
 void tex_image_2d(Context& context, GLenum target, GLint level, GLint internal_format, GLsizei width, GLsizei height, GLint border, GLenum format, GLenum type, const GLvoid* pixels) {
   if (is_proxy(target)) return Compiled<&OperationTable::tex_image_2d>::pass(context, target, level, internal_format, width, height, border, format, type, pixels);
   compiling(context, [&] { Compiled<&OperationTable::tex_image_2d>::record_image(context, target, level, internal_format, width, height, border, format, type, keep_image(context, width, height, format, type, pixels)); });
   Compiled<&OperationTable::tex_image_2d>::execute(context, target, level, internal_format, width, height, border, format, type, pixels);
+}
+
+void tex_sub_image_1d(Context& context, GLenum target, GLint level, GLint x, GLsizei width, GLenum format, GLenum type, const GLvoid* pixels) {
+  compiling(context, [&] { Compiled<&OperationTable::tex_sub_image_1d>::record_image(context, target, level, x, width, format, type, keep_image(context, width, 1, format, type, pixels)); });
+  Compiled<&OperationTable::tex_sub_image_1d>::execute(context, target, level, x, width, format, type, pixels);
 }
 
 void tex_sub_image_2d(Context& context, GLenum target, GLint level, GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type, const GLvoid* pixels) {
@@ -140,8 +156,16 @@ const OperationTable kCompileTable = {
     .delete_textures = Compiled<&OperationTable::delete_textures>::pass,
     .bind_texture = Compiled<&OperationTable::bind_texture>::compile,
     .is_texture = Compiled<&OperationTable::is_texture>::pass,
+    .are_textures_resident = Compiled<&OperationTable::are_textures_resident>::pass,
+    .prioritize_textures = compile::prioritize_textures,
+    .tex_image_1d = compile::tex_image_1d,
     .tex_image_2d = compile::tex_image_2d,
+    .tex_sub_image_1d = compile::tex_sub_image_1d,
     .tex_sub_image_2d = compile::tex_sub_image_2d,
+    .copy_tex_image_1d = Compiled<&OperationTable::copy_tex_image_1d>::compile,
+    .copy_tex_image_2d = Compiled<&OperationTable::copy_tex_image_2d>::compile,
+    .copy_tex_sub_image_1d = Compiled<&OperationTable::copy_tex_sub_image_1d>::compile,
+    .copy_tex_sub_image_2d = Compiled<&OperationTable::copy_tex_sub_image_2d>::compile,
     .tex_parameterfv = compile::tex_parameterfv,
     .tex_parameteriv = compile::tex_parameteriv,
     .tex_envfv = compile::tex_envfv,

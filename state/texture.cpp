@@ -7,6 +7,7 @@
 #include "state/context.h"
 #include "state/operations.gen.h"
 #include "state/out_of_memory.h"
+#include "state/pixel_value.h"
 
 namespace halfspace::state {
 namespace {
@@ -53,6 +54,13 @@ std::shared_ptr<TextureObject> find_or_create(TextureNamespace& names, GLuint na
     }
   }
   return entry->second;
+}
+
+// Null: 0, or no texture, be it that the name was generated but never bound.
+std::shared_ptr<TextureObject> find_texture(TextureNamespace& names, GLuint name) {
+  const std::lock_guard lock(names.mutex);
+  const auto entry = names.objects.find(name);
+  return entry == names.objects.end() ? nullptr : entry->second;
 }
 
 void release_names(TextureNamespace& names, const std::vector<GLuint>& released) {
@@ -156,10 +164,28 @@ void bind_texture(Context& context, GLenum target, GLuint name) {
 }
 
 GLboolean is_texture(Context& context, GLuint name) {
-  TextureNamespace& names = *context.texture.names;
-  const std::lock_guard lock(names.mutex);
-  const auto entry = names.objects.find(name);
-  return entry != names.objects.end() && entry->second != nullptr ? GL_TRUE : GL_FALSE;
+  return find_texture(*context.texture.names, name) != nullptr ? GL_TRUE : GL_FALSE;
+}
+
+// Name 0 and names of no texture are passed over (spec 3.8.11).
+void prioritize_textures(Context& context, GLsizei n, const GLuint* names, const GLclampf* priorities) {
+  if (n < 0) return record_error(context, GL_INVALID_VALUE);
+  if (names == nullptr || priorities == nullptr) return;
+  for (GLsizei i = 0; i < n; ++i) {
+    const auto object = find_texture(*context.texture.names, names[i]);
+    if (object == nullptr) continue;
+    const std::lock_guard lock(object->mutex);
+    object->parameters.priority = clamp_unit(priorities[i]);
+  }
+}
+
+// All textures are resident, and then `residences` is left alone; what is asked for has to be a texture.
+GLboolean are_textures_resident(Context& context, GLsizei n, const GLuint* names, GLboolean*) {
+  bool legal = n >= 0;
+  for (GLsizei i = 0; legal && names != nullptr && i < n; ++i)
+    legal = find_texture(*context.texture.names, names[i]) != nullptr;
+  if (!legal) record_error(context, GL_INVALID_VALUE);
+  return legal ? GL_TRUE : GL_FALSE;
 }
 
 }  // namespace op

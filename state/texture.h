@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 
 #include "raster/api/texture.h"
@@ -20,12 +21,16 @@ struct Context;
 inline constexpr bool kRequirePowerOfTwo = true;
 
 // What glGetTexLevelParameter reports of one image. Width and height as given, border included; no image: 0.
+// One-dimensional images have height 1, border or not.
 struct TextureImage {
   GLint internal_format = 1;
   GLsizei width = 0, height = 0;
   GLint border = 0;
   raster::BaseFormat base_format = raster::BaseFormat::luminance;
   bool empty() const { return width == 0 || height == 0; }
+  // Without the border. A two-dimensional image with a border is at least three texels high.
+  GLsizei inner_width() const { return width - 2 * border; }
+  GLsizei inner_height() const { return height == 1 ? 1 : height - 2 * border; }
 };
 
 using TextureImages = std::array<TextureImage, raster::kMaxTextureLevels>;
@@ -91,8 +96,8 @@ raster::Color texture_env_color(const Context& context);
 
 // The object bound to GL_TEXTURE_1D or GL_TEXTURE_2D; null for any other target.
 TextureObject* bound_texture(Context& context, GLenum target);
-// The images of a target or a proxy target, for level queries; null for any other target.
-const TextureImages* target_images(Context& context, GLenum target);
+// The image of `level`, which exists, of a target or a proxy target; nothing for any other target.
+std::optional<TextureImage> find_image(Context& context, GLenum target, GLint level);
 // Call after any change: what was derived from the object or the unit is out of date.
 void touch_texture(Context& context, TextureObject& object);
 void touch_texture_unit(Context& context);

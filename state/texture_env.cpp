@@ -25,17 +25,12 @@ void set_env(Context& context, GLenum target, GLenum pname, const T* params, con
   touch_texture_unit(context);
 }
 
-template <class T>
-void get_env(Context& context, GLenum target, GLenum pname, T* params, const char* operation) {
-  if (target != GL_TEXTURE_ENV) return record_error(context, GL_INVALID_ENUM, operation);
-  switch (pname) {
-    case GL_TEXTURE_ENV_MODE:
-      return write_answer(params, double(context.texture.env_mode), GetKind::enumeration);
-    case GL_TEXTURE_ENV_COLOR:
-      return write_color_answer(params, context.texture.env_color);
-    default:
-      return record_error(context, GL_INVALID_ENUM, operation);
-  }
+Answer env_answer(const Context& context, GLenum target, GLenum pname) {
+  if (target == GL_TEXTURE_ENV && pname == GL_TEXTURE_ENV_MODE)
+    return scalar_answer(GetKind::enumeration, context.texture.env_mode);
+  if (target == GL_TEXTURE_ENV && pname == GL_TEXTURE_ENV_COLOR)
+    return color_answer(context.texture.env_color);
+  return refusal(GL_INVALID_ENUM);
 }
 
 }  // namespace
@@ -66,11 +61,11 @@ void tex_enviv(Context& context, GLenum target, GLenum pname, const GLint* param
 }
 
 void get_tex_envfv(Context& context, GLenum target, GLenum pname, GLfloat* params) {
-  get_env(context, target, pname, params, __func__);
+  give_answer(context, env_answer(context, target, pname), params);
 }
 
 void get_tex_enviv(Context& context, GLenum target, GLenum pname, GLint* params) {
-  get_env(context, target, pname, params, __func__);
+  give_answer(context, env_answer(context, target, pname), params);
 }
 
 }  // namespace op

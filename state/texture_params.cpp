@@ -47,7 +47,7 @@ GLenum apply_parameter(TextureParameters& out, GLenum pname, const T* params) {
       out.border_color = color_argument(params);
       return GL_NO_ERROR;
     case GL_TEXTURE_PRIORITY:
-      out.priority = clamp_unit(float(params[0]));
+      out.priority = unit_argument(params[0]);
       return GL_NO_ERROR;
     default:
       return GL_INVALID_ENUM;
@@ -64,24 +64,23 @@ void set_parameter(Context& context, GLenum target, GLenum pname, const T* param
   touch_texture(context, *object);
 }
 
-template <class T>
-void get_parameter(Context& context, GLenum target, GLenum pname, T* params, const char* operation) {
+Answer parameter_answer(Context& context, GLenum target, GLenum pname) {
   TextureObject* object = bound_texture(context, target);
-  if (object == nullptr) return record_error(context, GL_INVALID_ENUM, operation);
+  if (object == nullptr) return refusal(GL_INVALID_ENUM);
   const std::lock_guard lock(object->mutex);
   const TextureParameters& parameters = object->parameters;
   if (const EnumParameter* parameter = find_enum_parameter(pname)) {
-    return write_answer(params, double(parameters.*parameter->value), GetKind::enumeration);
+    return scalar_answer(GetKind::enumeration, parameters.*parameter->value);
   }
   switch (pname) {
     case GL_TEXTURE_BORDER_COLOR:
-      return write_color_answer(params, parameters.border_color);
+      return color_answer(parameters.border_color);
     case GL_TEXTURE_PRIORITY:
-      return write_answer(params, double(parameters.priority), GetKind::real);
+      return scalar_answer(GetKind::normalized, double(parameters.priority));
     case GL_TEXTURE_RESIDENT:
-      return write_answer(params, 1, GetKind::boolean);  // memory is all there is
+      return scalar_answer(GetKind::boolean, 1);  // memory is all there is
     default:
-      return record_error(context, GL_INVALID_ENUM, operation);
+      return refusal(GL_INVALID_ENUM);
   }
 }
 
@@ -98,11 +97,11 @@ void tex_parameteriv(Context& context, GLenum target, GLenum pname, const GLint*
 }
 
 void get_tex_parameterfv(Context& context, GLenum target, GLenum pname, GLfloat* params) {
-  get_parameter(context, target, pname, params, __func__);
+  give_answer(context, parameter_answer(context, target, pname), params);
 }
 
 void get_tex_parameteriv(Context& context, GLenum target, GLenum pname, GLint* params) {
-  get_parameter(context, target, pname, params, __func__);
+  give_answer(context, parameter_answer(context, target, pname), params);
 }
 
 }  // namespace op

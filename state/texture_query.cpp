@@ -8,6 +8,7 @@
 #include "state/out_of_memory.h"
 #include "state/pixel_format.h"
 #include "state/texture_format.h"
+#include "state/texture_image.h"
 
 namespace halfspace::state {
 namespace {
@@ -38,6 +39,11 @@ std::optional<GLint> level_parameter(const TextureImage& image, GLenum pname) {
       return bits(kLuminanceBits);
     case GL_TEXTURE_INTENSITY_SIZE:
       return bits(kIntensityBits);
+    // Later versions' names. Programs ask for all components of an image in a row; no image of ours has
+    // these.
+    case GL_TEXTURE_DEPTH_SIZE:
+    case GL_TEXTURE_STENCIL_SIZE:
+      return 0;
     default:
       return std::nullopt;
   }
@@ -46,11 +52,11 @@ std::optional<GLint> level_parameter(const TextureImage& image, GLenum pname) {
 template <class T>
 void get_level_parameter(Context& context, GLenum target, GLint level, GLenum pname, T* params,
                          const char* operation) {
-  const TextureImages* images = target_images(context, target);
-  if (images == nullptr) return record_error(context, GL_INVALID_ENUM, operation);
-  if (level < 0 || level >= raster::kMaxTextureLevels)
-    return record_error(context, GL_INVALID_VALUE, operation);
-  const auto value = level_parameter((*images)[size_t(level)], pname);
+  const bool exists = level_exists(level);
+  const auto image = find_image(context, target, exists ? level : 0);
+  if (!image) return record_error(context, GL_INVALID_ENUM, operation);
+  if (!exists) return record_error(context, GL_INVALID_VALUE, operation);
+  const auto value = level_parameter(*image, pname);
   if (!value) return record_error(context, GL_INVALID_ENUM, operation);
   *params = T(*value);
 }
@@ -59,9 +65,16 @@ void write_image(TextureObject& object, GLint level, const PixelFormat& format, 
                  std::byte* pixels) {
   const TextureImage& image = object.images[size_t(level)];
   const size_t width = size_t(image.width), height = size_t(image.height);
-  std::vector<uint8_t> texels(width * height * 4);
-  object.storage.read_level(level, texels.data(), width * 4);
-  expand_from_base(image.base_format, texels.data(), width * height);
+  const size_t stored_height = size_t(image.inner_height() + 2 * image.border);
+  std::vector<uint8_t> stored(width * stored_height * 4);
+  object.storage.read_level(level, stored.data(), width * 4);
+  // In one dimension the rows of the border are only there for the sampler.
+  uint8_t* texels = &stored[(stored_height - height) / 2 * width * 4];
+  expand_from_base(image.base_format, texels, width * height);
+  if (format.format == GL_LUMINANCE || format.format == GL_LUMINANCE_ALPHA) {
+    // L is R here, not the sum that glReadPixels takes: what came in as R goes out as L.
+    for (size_t i = 0; i < width * height; ++i) texels[4 * i + 1] = texels[4 * i + 2] = 0;
+  }
   const ClientLayout layout = client_layout(store, image.width, format.pixel_bytes);
   for (size_t y = 0; y < height; ++y) {
     encode_pixels(format, store.swap_bytes, &texels[y * width * 4], width,
@@ -93,7 +106,7 @@ void get_tex_level_parameteriv(Context& context, GLenum target, GLint level, GLe
 void get_tex_image(Context& context, GLenum target, GLint level, GLenum format, GLenum type, GLvoid* pixels) {
   TextureObject* object = bound_texture(context, target);
   if (object == nullptr || !is_color_format(format)) return record_error(context, GL_INVALID_ENUM);
-  if (level < 0 || level >= raster::kMaxTextureLevels) return record_error(context, GL_INVALID_VALUE);
+  if (!level_exists(level)) return record_error(context, GL_INVALID_VALUE);
   PixelFormat out;
   const GLenum error = describe_pixels(format, type, out);
   if (error != GL_NO_ERROR) return record_error(context, error);

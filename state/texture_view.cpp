@@ -37,18 +37,20 @@ raster::MipMode to_mip_mode(GLenum filter) {
   }
 }
 
-raster::Sampler to_sampler(const TextureParameters& parameters) {
+// Nothing depends on t in one dimension: all rows that a lookup may touch are the same one.
+raster::Sampler to_sampler(const TextureParameters& parameters, bool one_dimensional) {
   return {.mag = to_filter(parameters.mag_filter),
           .min = to_filter(parameters.min_filter),
           .mip = to_mip_mode(parameters.min_filter),
           .wrap_s = to_wrap(parameters.wrap_s),
-          .wrap_t = to_wrap(parameters.wrap_t),
-          .border_color = parameters.border_color};
+          .wrap_t = one_dimensional ? raster::Wrap::repeat : to_wrap(parameters.wrap_t),
+          .border_color = parameters.border_color,
+          .one_dimensional = one_dimensional};
 }
 
 bool fits_above(const TextureImage& image, const TextureImage& base, GLsizei inner_width,
                 GLsizei inner_height) {
-  return image.width == inner_width + 2 * base.border && image.height == inner_height + 2 * base.border &&
+  return image.inner_width() == inner_width && image.inner_height() == inner_height &&
          image.border == base.border &&
          canonical_format(image.internal_format) == canonical_format(base.internal_format);
 }
@@ -58,7 +60,9 @@ std::shared_ptr<const raster::TextureView> view_of(TextureObject& object) {
   const uint64_t revision = object.revision.load(std::memory_order_relaxed);
   if (object.view_revision == revision) return object.view;
   const int levels = complete_level_count(object.images, object.parameters.min_filter);
-  object.view = levels == 0 ? nullptr : object.storage.view(to_sampler(object.parameters), levels);
+  object.view = levels == 0 ? nullptr
+                            : object.storage.view(
+                                  to_sampler(object.parameters, object.target == GL_TEXTURE_1D), levels);
   object.view_revision = revision;
   return object.view;
 }
@@ -69,7 +73,7 @@ int complete_level_count(const TextureImages& images, GLenum min_filter) {
   const TextureImage& base = images[0];
   if (base.empty()) return 0;
   if (to_mip_mode(min_filter) == raster::MipMode::none) return 1;
-  GLsizei width = base.width - 2 * base.border, height = base.height - 2 * base.border;
+  GLsizei width = base.inner_width(), height = base.inner_height();
   int levels = 1;
   while (width > 1 || height > 1) {
     width = std::max(width / 2, 1);

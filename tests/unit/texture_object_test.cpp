@@ -98,6 +98,46 @@ TEST_F(TextureObjectTest, ADrawKeepsTheViewOfADeletedTexture) {
   EXPECT_EQ(current_texture_view(gl()), nullptr);
 }
 
+TEST_F(TextureObjectTest, PrioritiesGoToTheTexturesThatExist) {
+  const GLuint names[] = {3, 0, 77, 4};  // 77 is no texture
+  const GLclampf priorities[] = {0.25f, 0.5f, 0.75f, 7};
+  op::bind_texture(gl(), GL_TEXTURE_1D, 4);
+  op::bind_texture(gl(), GL_TEXTURE_2D, 3);
+  op::prioritize_textures(gl(), 4, names, priorities);
+  EXPECT_GL(GL_NO_ERROR);
+  const auto priority = [&](GLenum target) {
+    GLfloat value = -1;
+    op::get_tex_parameterfv(gl(), target, GL_TEXTURE_PRIORITY, &value);
+    return value;
+  };
+  EXPECT_EQ(priority(GL_TEXTURE_2D), 0.25f);
+  EXPECT_EQ(priority(GL_TEXTURE_1D), 1.0f);
+  EXPECT_FALSE(op::is_texture(gl(), 77));
+  op::bind_texture(gl(), GL_TEXTURE_2D, 0);
+  EXPECT_EQ(priority(GL_TEXTURE_2D), 1.0f);  // name 0 is passed over
+  const GLclampf half = 0.5f;
+  op::prioritize_textures(gl(), -1, names, &half);
+  EXPECT_GL(GL_INVALID_VALUE);
+}
+
+TEST_F(TextureObjectTest, TexturesAreResident) {
+  op::bind_texture(gl(), GL_TEXTURE_2D, 3);
+  op::bind_texture(gl(), GL_TEXTURE_1D, 4);
+  GLuint reserved = 0;
+  op::gen_textures(gl(), 1, &reserved);
+  const GLuint names[] = {3, 4, 0}, unbound[] = {3, reserved};
+  GLboolean residences[3] = {9, 9, 9};
+  EXPECT_TRUE(op::are_textures_resident(gl(), 2, names, residences));
+  EXPECT_GL(GL_NO_ERROR);
+  EXPECT_FALSE(op::are_textures_resident(gl(), 3, names, residences));  // name 0
+  EXPECT_GL(GL_INVALID_VALUE);
+  EXPECT_FALSE(op::are_textures_resident(gl(), 2, unbound, residences));
+  EXPECT_GL(GL_INVALID_VALUE);
+  EXPECT_FALSE(op::are_textures_resident(gl(), -1, names, residences));
+  EXPECT_GL(GL_INVALID_VALUE);
+  for (GLboolean r : residences) EXPECT_EQ(r, 9);  // written only when some texture is not
+}
+
 TEST_F(TextureObjectTest, NegativeCountsAreRefused) {
   GLuint name = 77;
   op::gen_textures(gl(), -1, &name);

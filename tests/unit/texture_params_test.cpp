@@ -33,7 +33,7 @@ TEST_F(TextureParamsTest, StartAsTheSpecSays) {
   EXPECT_EQ(get(GL_TEXTURE_MAG_FILTER), GL_LINEAR);
   EXPECT_EQ(get(GL_TEXTURE_WRAP_S), GL_REPEAT);
   EXPECT_EQ(get(GL_TEXTURE_WRAP_T), GL_REPEAT);
-  EXPECT_EQ(get(GL_TEXTURE_PRIORITY), 1);
+  EXPECT_EQ(get(GL_TEXTURE_PRIORITY), std::numeric_limits<GLint>::max());  // 1.0
   EXPECT_EQ(get(GL_TEXTURE_RESIDENT), 1);
   GLfloat border[4] = {9, 9, 9, 9};
   op::get_tex_parameterfv(gl(), GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border);
@@ -146,6 +146,21 @@ TEST_F(TextureParamsTest, PriorityIsClamped) {
   EXPECT_EQ(priority(0.375f), 0.375f);
   EXPECT_EQ(priority(7.0f), 1.0f);
   EXPECT_EQ(priority(-7.0f), 0.0f);
+}
+
+// Integers stand for [-1, 1] here too (table 2.9).
+TEST_F(TextureParamsTest, PriorityAsInteger) {
+  const auto priority = [&](GLint value) {
+    set(GL_TEXTURE_PRIORITY, value);
+    GLfloat read = -1;
+    op::get_tex_parameterfv(gl(), GL_TEXTURE_2D, GL_TEXTURE_PRIORITY, &read);
+    return read;
+  };
+  EXPECT_EQ(priority(std::numeric_limits<GLint>::max()), 1.0f);
+  EXPECT_EQ(priority(std::numeric_limits<GLint>::min()), 0.0f);
+  EXPECT_EQ(priority(1 << 30), 0.5f);
+  EXPECT_EQ(get(GL_TEXTURE_PRIORITY), GLint((4294967295.0 * 0.5 - 1) / 2));
+  EXPECT_GL(GL_NO_ERROR);
 }
 
 TEST_F(TextureParamsTest, Environment) {
