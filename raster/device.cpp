@@ -96,6 +96,8 @@ struct Device::Impl {
   // The pass so far. Segments, and what they hold, are reused from pass to pass.
   std::vector<std::unique_ptr<Segment>> segments;
   std::vector<Segment*> pending;
+  uint8_t pending_targets = 0;  // colour planes drawn to since the pass began or was last executed
+  bool pending_stencil = false;  // and whether the stencil plane may have been written
   bool last_is_open = false;  // the last pending segment takes further small draws
   std::deque<DrawRecord> draws;
   std::deque<PipelineProgram> programs;
@@ -118,8 +120,9 @@ struct Device::Impl {
   void draw(const DrawPacket& packet);
   void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout);
   void draw_part(const DrawPacket& packet, const VertexLayout& layout, const PipelineProgram& program);
-  void execute(const LinearImage* image);
+  void execute(const LinearImage* image, ColorPlane plane = kBackPlane);
   void discard();
+  bool covers_pending(const ClearCommand& command) const;
 };
 
 Segment& Device::Impl::new_segment() {
@@ -199,7 +202,10 @@ void Device::Impl::draw(const DrawPacket& packet) {
   ++statistics.draws;
   statistics.vertices += packet.batch.count;
   if (program.draws_nothing || draw_bounds(state, *target).empty()) return;
-  if (program.writes_color) target->need_color();
+  if (program.writes_color) {
+    target->need_color(state.color_targets);
+    pending_targets |= state.color_targets;
+  }
   if (program.reads_depth) target->need_depth();
   draw_in_parts(packet, layout);
 }
@@ -254,6 +260,8 @@ void Device::Impl::discard() {
     statistics.clipped += segment->clipped;
   }
   pending.clear();
+  pending_targets = 0;
+  pending_stencil = false;
   last_is_open = false;
   draws.clear();
   programs.clear();
@@ -263,7 +271,13 @@ void Device::Impl::discard() {
   arena.reset();
 }
 
-void Device::Impl::execute(const LinearImage* image) {
+// True if nothing of the pending work would be seen after the clear.
+bool Device::Impl::covers_pending(const ClearCommand& command) const {
+  return command.color && command.depth && (pending_targets & ~command.color_targets) == 0 &&
+         (command.stencil || !pending_stencil) && clears_everything(*target, command);
+}
+
+void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
   if (target == nullptr) return;
   std::vector<uint32_t> tiles;
   if (image != nullptr) {
@@ -279,7 +293,7 @@ void Device::Impl::execute(const LinearImage* image) {
   pool.run(static_cast<uint32_t>(tiles.size()), [&](uint32_t i, int worker) {
     TileStatistics local;
     if (!pending.empty()) run_tile(pending, *target, tiles[i], local);
-    if (image != nullptr) resolve_tile(*target, tiles[i], *image);
+    if (image != nullptr) resolve_tile(*target, tiles[i], plane_index(plane), *image);
     counts[static_cast<size_t>(worker)].fragments += local.fragments;
     counts[static_cast<size_t>(worker)].double_fragments += local.double_fragments;
   });
@@ -302,13 +316,13 @@ void Device::begin_pass(Framebuffer* target) {
 
 void Device::clear(const ClearCommand& command) {
   if (impl_->target == nullptr) return;
-  if (command.color && command.depth && clears_everything(*impl_->target, command)) impl_->discard();
+  if (impl_->covers_pending(command)) impl_->discard();
   else impl_->execute(nullptr);
   raster::clear(*impl_->target, command);
 }
 
 void Device::draw(const DrawPacket& packet) { impl_->draw(packet); }
-void Device::finish(const LinearImage* image, ColorPlane) { impl_->execute(image); }
+void Device::finish(const LinearImage* image, ColorPlane plane) { impl_->execute(image, plane); }
 const DeviceStatistics& Device::statistics() const { return impl_->statistics; }
 
 namespace {
@@ -327,22 +341,24 @@ void read_rows(const Framebuffer::Impl& fb, const Rect& rect, size_t channels, T
 
 }  // namespace
 
-void Device::read_color(const Rect& rect, uint8_t* out, ColorPlane) {
+void Device::read_color(const Rect& rect, uint8_t* out, ColorPlane plane) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
   std::vector<uint32_t> row(static_cast<size_t>(fb.width));
   read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, uint8_t* to) {
-    read_row_rgba8(fb, x0, x1, y, row.data());
+    read_row_rgba8(fb, plane_index(plane), x0, x1, y, row.data());
     std::memcpy(to, row.data(), static_cast<size_t>(x1 - x0) * 4);
   });
 }
 
-void Device::read_color_float(const Rect& rect, float* out, ColorPlane) {
+void Device::read_color_float(const Rect& rect, float* out, ColorPlane plane) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
-  read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, float* to) { read_row_float(fb, x0, x1, y, to); });
+  read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, float* to) {
+    read_row_float(fb, plane_index(plane), x0, x1, y, to);
+  });
 }
 
 void Device::read_depth(const Rect& rect, uint32_t* out) {
@@ -350,6 +366,23 @@ void Device::read_depth(const Rect& rect, uint32_t* out) {
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
   read_rows(fb, rect, 1, out, [&](int x0, int x1, int y, uint32_t* to) { read_row_depth(fb, x0, x1, y, to); });
+}
+
+void Device::read_stencil(const Rect& rect, uint8_t* out) {
+  if (impl_->target == nullptr) return;
+  finish();
+  const Framebuffer::Impl& fb = *impl_->target;
+  read_rows(fb, rect, 1, out, [&](int x0, int x1, int y, uint8_t* to) { read_row_stencil(fb, x0, x1, y, to); });
+}
+
+void Device::copy_plane(ColorPlane from, ColorPlane to, const Rect& rect) {
+  if (impl_->target == nullptr) return;
+  finish();
+  Framebuffer::Impl& fb = *impl_->target;
+  fb.need_color(kBackPlane | kFrontPlane);
+  impl_->pool.run(static_cast<uint32_t>(fb.tiles.size()), [&](uint32_t tile, int) {
+    copy_plane_tile(fb, tile, plane_index(from), plane_index(to), rect);
+  });
 }
 
 }  // namespace halfspace::raster

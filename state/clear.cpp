@@ -14,7 +14,8 @@ raster::ClearCommand clear_command(const Context& context, GLbitfield mask) {
   const ColorBufferState& color = context.color_buffer;
   const DepthBufferState& depth = context.depth_buffer;
   raster::ClearCommand command;
-  command.color = (mask & GL_COLOR_BUFFER_BIT) != 0 && !color.mask.none();
+  command.color_targets = draw_planes(context);
+  command.color = (mask & GL_COLOR_BUFFER_BIT) != 0 && !color.mask.none() && command.color_targets != 0;
   command.color_value = color.clear_color;
   command.color_mask = color.mask;
   if (context.visual.alpha_bits == 0) command.color_value.a = 1;  // such a buffer reads alpha 1
@@ -35,7 +36,10 @@ void clear(Context& context, GLbitfield mask) {
   const raster::ClearCommand command = clear_command(context, mask);
   if (!command.color && !command.depth) return;
   guard_memory(context, [&] {
-    draw_to_buffers(context, context.device, [&](raster::Device& device) { device.clear(command); });
+    raster::Framebuffer* framebuffer = draw_framebuffer(context);
+    if (!framebuffer) return;
+    context.device.begin_pass(framebuffer);
+    context.device.clear(command);
   });
 }
 

@@ -68,23 +68,40 @@ int existing_buffers(const VisualConfig& visual) {
 
 }  // namespace
 
+namespace {
+
+const Drawable* reading_drawable(const Context& context) {
+  return context.read_drawable ? context.read_drawable : context.drawable;
+}
+
+// A front end may show a drawable without a back buffer to a context whose visual has one.
+uint8_t planes_of(GLenum mode, const Context& context, const Drawable* drawable) {
+  const int bits = mode == GL_NONE ? 0 : buffer_bits(mode) & existing_buffers(context.visual);
+  const VisualConfig& visual = drawable ? drawable->visual() : context.visual;
+  if (!visual.double_buffered) return bits ? raster::kBackPlane : 0;
+  return uint8_t((bits & kBackLeft ? raster::kBackPlane : 0) | (bits & kFrontLeft ? raster::kFrontPlane : 0));
+}
+
+}  // namespace
+
+uint8_t draw_planes(const Context& context) {
+  return planes_of(context.color_buffer.draw_buffer, context, context.drawable);
+}
+
+raster::ColorPlane read_plane(const Context& context) {
+  const uint8_t planes = planes_of(context.color_buffer.read_buffer, context, reading_drawable(context));
+  return planes & raster::kFrontPlane ? raster::kFrontPlane : raster::kBackPlane;
+}
+
+raster::Framebuffer* draw_framebuffer(Context& context) {
+  flush_vertices(context);
+  return context.drawable ? &context.drawable->framebuffer(draw_planes(context)) : nullptr;
+}
+
 raster::Framebuffer* read_framebuffer(Context& context) {
   flush_vertices(context);
   Drawable* drawable = context.read_drawable ? context.read_drawable : context.drawable;
-  if (!drawable) return nullptr;
-  const int bits = buffer_bits(context.color_buffer.read_buffer) & existing_buffers(context.visual);
-  return bits & kFrontLeft ? &drawable->front() : &drawable->back();
-}
-
-int draw_framebuffers(Context& context, raster::Framebuffer* out[2]) {
-  flush_vertices(context);
-  const GLenum mode = context.color_buffer.draw_buffer;
-  if (!context.drawable || mode == GL_NONE) return 0;
-  const int bits = buffer_bits(mode) & existing_buffers(context.visual);
-  int count = 0;
-  if (bits & kFrontLeft) out[count++] = &context.drawable->front();
-  if (bits & kBackLeft) out[count++] = &context.drawable->back();
-  return count;
+  return drawable ? &drawable->framebuffer(read_plane(context)) : nullptr;
 }
 
 namespace op {
@@ -126,6 +143,7 @@ void draw_buffer(Context& context, GLenum mode) {
   // What was drawn to a visible buffer comes to light now: later flushes are about the new one.
   flush(context);
   context.color_buffer.draw_buffer = mode;
+  mark_dirty(context, kDirtyFragment);
 }
 
 void read_buffer(Context& context, GLenum mode) {

@@ -23,22 +23,15 @@ struct ColorBufferState {
   GLenum draw_buffer = GL_NONE, read_buffer = GL_NONE;
 };
 
-// The buffer glReadPixels reads, or null when there is no drawable.
+// The colour planes that drawing goes to, as bits of raster::ColorPlane; 0 for GL_NONE, when only depth and
+// stencil are drawn.
+uint8_t draw_planes(const Context& context);
+// The plane that glReadPixels, glCopyPixels and their like read.
+raster::ColorPlane read_plane(const Context& context);
+
+// Drawing goes to draw_planes() of this, reading is from read_plane() of this. Primitives that wait are drawn
+// first. Null when there is no drawable.
+raster::Framebuffer* draw_framebuffer(Context& context);
 raster::Framebuffer* read_framebuffer(Context& context);
-
-// The buffers drawing goes to, at most two (GL_FRONT_AND_BACK of a double-buffered drawable); returns how
-// many. Zero: GL_NONE, or no drawable.
-int draw_framebuffers(Context& context, raster::Framebuffer* out[2]);
-
-// For each buffer that drawing goes to: begins the device's pass on it and calls draw(device).
-template <class Draw>
-void draw_to_buffers(Context& context, raster::Device& device, Draw&& draw) {
-  raster::Framebuffer* targets[2];
-  const int count = draw_framebuffers(context, targets);
-  for (int i = 0; i < count; ++i) {
-    device.begin_pass(targets[i]);
-    draw(device);
-  }
-}
 
 }  // namespace halfspace::state

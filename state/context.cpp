@@ -44,16 +44,11 @@ void size_to_drawable(Context& context) {
   mark_dirty(context, kDirtyViewport | kDirtyRaster);
 }
 
-// Calls finish(device, buffer) of the drawable for each buffer that is drawn to.
 void finish_drawing(Context& context, const char* operation) try {
-  if (!context.drawable) return;
-  raster::Framebuffer* targets[2];
-  const int count = draw_framebuffers(context, targets);
-  for (int i = 0; i < count; ++i) {
-    context.device.begin_pass(targets[i]);
-    context.drawable->finish(context.device, *targets[i]);
-  }
-  if (count == 0) context.device.finish();
+  raster::Framebuffer* framebuffer = draw_framebuffer(context);
+  if (!framebuffer) return;
+  context.device.begin_pass(framebuffer);
+  context.drawable->finish(context.device, draw_planes(context));
 } catch (const std::bad_alloc&) {
   record_error(context, GL_OUT_OF_MEMORY, operation);
 }

@@ -19,14 +19,14 @@ class Drawable {
   // Size in pixels, as of the last make-current or swap.
   virtual int width() const = 0;
   virtual int height() const = 0;
-  // The buffers. A double-buffered drawable has both; a single-buffered one returns its only buffer for either.
-  // Created when first asked for; may throw std::bad_alloc.
-  virtual raster::Framebuffer& front() = 0;
-  virtual raster::Framebuffer& back() = 0;
+  // The buffers: one framebuffer, with a colour plane each. A single-buffered drawable's only plane is
+  // kBackPlane. `planes`: bits of raster::ColorPlane, those about to be drawn to or read. Created when first
+  // asked for; may throw std::bad_alloc.
+  virtual raster::Framebuffer& framebuffer(uint8_t planes) = 0;
   // glFlush and glFinish: all drawing is executed; a picture that someone can see without a swap (OSMesa's user
   // buffer, a single-buffered window, a front buffer drawn to) is brought up to date. The device's current pass is
-  // on `target`, one of this drawable's buffers.
-  virtual void finish(raster::Device& device, raster::Framebuffer& target) = 0;
+  // on the framebuffer; `planes`: what is drawn to.
+  virtual void finish(raster::Device& device, uint8_t planes) = 0;
 };
 
 }  // namespace halfspace::state

@@ -19,6 +19,7 @@ struct ReadTarget {
   PixelFormat format;
   ClientLayout layout;
   bool swap_bytes;
+  raster::ColorPlane plane;
   bool opaque;  // the visual has no alpha: it reads as 1
   int x, y;     // window position of the user's first pixel
   std::byte* pixels;
@@ -75,7 +76,7 @@ bool read_plain(raster::Device& device, const raster::Rect& rect, const ReadTarg
   const size_t width = size_t(rect.x1 - rect.x0);
   if (!is_plain_rgba8(target.format, target.swap_bytes) || target.layout.row_bytes != width * 4) return false;
   uint8_t* out = reinterpret_cast<uint8_t*>(target.address(rect.x0, rect.y0));
-  device.read_color(rect, out);
+  device.read_color(rect, out, target.plane);
   if (target.opaque) set_opaque(out, width * size_t(rect.y1 - rect.y0));
   return true;
 }
@@ -88,10 +89,10 @@ void read_into(Context& context, raster::Framebuffer& framebuffer, const raster:
   if (read_plain(device, rect, target)) return;
   if (framebuffer.format() == raster::ColorFormat::rgba32f) {
     read_color<float>(rect, target,
-                      [&](const raster::Rect& band, float* out) { device.read_color_float(band, out); });
+                      [&](const raster::Rect& band, float* out) { device.read_color_float(band, out, target.plane); });
   } else {
     read_color<uint8_t>(rect, target,
-                        [&](const raster::Rect& band, uint8_t* out) { device.read_color(band, out); });
+                        [&](const raster::Rect& band, uint8_t* out) { device.read_color(band, out, target.plane); });
   }
 }
 
@@ -133,6 +134,7 @@ void read_pixels(Context& context, GLint x, GLint y, GLsizei width, GLsizei heig
               {.format = pixel_format,
                .layout = client_layout(pack, width, pixel_format.pixel_bytes),
                .swap_bytes = pack.swap_bytes,
+               .plane = read_plane(context),
                .opaque = context.visual.alpha_bits == 0,
                .x = x,
                .y = y,

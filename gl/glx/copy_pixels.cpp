@@ -10,7 +10,7 @@ namespace halfspace::gl::glx {
 using namespace raster;
 
 // The renderer takes pixels in as textures: one texel a pixel, nearest, replacing, both ends exact in 8 bits.
-void copy_pixels(Framebuffer& target, const uint8_t* rgba) {
+void copy_pixels(Framebuffer& target, ColorPlane plane, const uint8_t* rgba) {
   const int width = target.width(), height = target.height();
   Texture texture;
   texture.define_level(0, width, height, 0, BaseFormat::rgba, rgba, size_t(width) * 4);
@@ -23,6 +23,7 @@ void copy_pixels(Framebuffer& target, const uint8_t* rgba) {
   state->viewport = {0, 0, width, height, 0, 1};
   state->texture.view = texture.view(sampler, 1);
   state->texture.env = EnvMode::replace;
+  state->color_targets = plane;
 
   constexpr std::array<float, 8> kPositions{-1, -1, 1, -1, 1, 1, -1, 1};
   constexpr std::array<float, 8> kTexCoords{0, 0, 1, 0, 1, 1, 0, 1};

@@ -51,13 +51,9 @@ bool GlxDrawable::refresh() {
 void GlxDrawable::apply_size() {
   if (!resized()) return;
   size_ = server_size_;
-  swapped_ = false;
-  if (bindings_ > 1) {
-    if (front_) retired_.push_back(std::move(front_));
-    if (back_) retired_.push_back(std::move(back_));
-  }
-  front_.reset();
-  back_.reset();
+  swapped_ = has_front_ = false;
+  if (bindings_ > 1 && framebuffer_) retired_.push_back(std::move(framebuffer_));
+  framebuffer_.reset();
 }
 
 void GlxDrawable::unbind() {
@@ -68,49 +64,44 @@ void GlxDrawable::release() {
   if (presenter_) presenter_->release();
 }
 
-std::unique_ptr<raster::Framebuffer> GlxDrawable::make_buffer() const {
-  return std::make_unique<raster::Framebuffer>(std::max(size_.width, 1), std::max(size_.height, 1),
-                                               raster::ColorFormat::rgba8);
-}
-
-raster::Framebuffer& GlxDrawable::back() {
-  if (!back_) back_ = make_buffer();
-  return *back_;
+// Two planes even when one does: an X window may be given another config later.
+raster::Framebuffer& GlxDrawable::framebuffer(uint8_t planes) {
+  if (!framebuffer_) {
+    framebuffer_ = std::make_unique<raster::Framebuffer>(std::max(size_.width, 1), std::max(size_.height, 1),
+                                                         raster::ColorFormat::rgba8, 2);
+  }
+  if (visual_.double_buffered && (planes & raster::kFrontPlane) != 0 && !has_front_) make_front();
+  return *framebuffer_;
 }
 
 // Few programs look at the front buffer of a double-buffered window; until one does, what was swapped to it
 // lives in the XImage alone.
-raster::Framebuffer& GlxDrawable::front() {
-  if (!visual_.double_buffered) return back();
-  if (!front_) {
-    front_ = make_buffer();
-    if (swapped_ && presenter_) copy_to_front(presenter_->shown(size_.width, size_.height));
+void GlxDrawable::make_front() {
+  if (swapped_ && presenter_) {
+    const std::vector<uint8_t> rgba = presenter_->shown(size_.width, size_.height);
+    if (!rgba.empty()) copy_pixels(*framebuffer_, raster::kFrontPlane, rgba.data());
   }
-  return *front_;
+  has_front_ = true;
 }
 
-void GlxDrawable::copy_to_front(std::vector<uint8_t> rgba) {
-  if (!rgba.empty()) copy_pixels(*front_, rgba.data());
-}
-
-void GlxDrawable::present(raster::Device& device) {
+void GlxDrawable::present(raster::Device& device, raster::ColorPlane plane, const raster::Rect& part) {
   const raster::LinearImage image = presenter_->image(size_.width, size_.height, config_.opaque());
-  device.finish(&image);
-  presenter_->put(0, 0, size_.width, size_.height);
+  device.finish(&image, plane);
+  presenter_->put(part.x0, size_.height - part.y1, part.x1 - part.x0, part.y1 - part.y0);
 }
 
 void GlxDrawable::capture(raster::Device& device) {
   if (!capture_enabled() || quiet_) return;
   std::vector<uint8_t> rgba(size_t(size_.width) * size_t(size_.height) * 4);
-  device.read_color({0, 0, size_.width, size_.height}, rgba.data());
+  device.read_color(whole(), rgba.data());
   capture_frame(rgba.data(), size_.width, size_.height);
 }
 
-void GlxDrawable::finish(raster::Device& device, raster::Framebuffer& target) {
-  const bool seen = !visual_.double_buffered || &target == front_.get();
+void GlxDrawable::finish(raster::Device& device, uint8_t planes) {
+  const bool seen = !visual_.double_buffered || (planes & raster::kFrontPlane) != 0;
   if (!seen && about_to_show_) return;
   if (!seen || !visible()) return device.finish();
-  present(device);
+  present(device, visual_.double_buffered ? raster::kFrontPlane : raster::kBackPlane, whole());
   if (!visual_.double_buffered) capture(device);
 }
 
@@ -119,28 +110,24 @@ void GlxDrawable::swap(raster::Device& device) {
   if (!visual_.double_buffered) return;
   device.begin_pass(&back());
   if (visible()) {
-    present(device);
+    present(device, raster::kBackPlane, whole());
   } else {
     device.finish();
   }
   swapped_ = true;
   capture(device);
-  // A pbuffer has no XImage for front() to fall back on.
-  if (!front_ && kind_ == Kind::pbuffer) front_ = make_buffer();
-  if (!front_) return;
-  std::vector<uint8_t> rgba(size_t(front_->width()) * size_t(front_->height()) * 4);
-  device.read_color({0, 0, front_->width(), front_->height()}, rgba.data());
-  copy_to_front(std::move(rgba));
+  // A pbuffer has no XImage to make a front plane from.
+  has_front_ |= kind_ == Kind::pbuffer;
+  if (has_front_) device.copy_plane(raster::kBackPlane, raster::kFrontPlane, whole());
 }
 
 void GlxDrawable::show_part(raster::Device& device, const raster::Rect& part) {
   about_to_show_ = false;
-  const raster::Rect inside = intersect(part, {0, 0, size_.width, size_.height});
-  if (!visible() || inside.empty()) return;
-  device.begin_pass(&back());
-  const raster::LinearImage image = presenter_->image(size_.width, size_.height, config_.opaque());
-  device.finish(&image);
-  presenter_->put(inside.x0, size_.height - inside.y1, inside.x1 - inside.x0, inside.y1 - inside.y0);
+  const raster::Rect inside = intersect(part, whole());
+  if (!visual_.double_buffered || inside.empty()) return;
+  device.begin_pass(&framebuffer(raster::kFrontPlane));
+  device.copy_plane(raster::kBackPlane, raster::kFrontPlane, inside);
+  if (visible()) present(device, raster::kFrontPlane, inside);
 }
 
 }  // namespace halfspace::gl::glx

@@ -85,20 +85,21 @@ class GlxDrawable final : public state::Drawable {
   const state::VisualConfig& visual() const override { return visual_; }
   int width() const override { return size_.width; }
   int height() const override { return size_.height; }
-  raster::Framebuffer& front() override;
-  raster::Framebuffer& back() override;
-  void finish(raster::Device& device, raster::Framebuffer& target) override;
+  raster::Framebuffer& framebuffer(uint8_t planes) override;
+  void finish(raster::Device& device, uint8_t planes) override;
 
   unsigned long event_mask = 0;  // glXSelectEvent; nothing ever clobbers our buffers, so no event is sent
   int swap_interval = 1;         // kept for the queries; there is no retrace to wait for
   bool preserved_contents = true, largest = false;  // as the pbuffer was created
 
  private:
-  std::unique_ptr<raster::Framebuffer> make_buffer() const;
+  raster::Framebuffer& back() { return framebuffer(raster::kBackPlane); }
+  void make_front();
   bool visible() const { return presenter_ && connection_->display(); }
-  void present(raster::Device& device);
+  // Executes what is pending and shows `part` of a plane, in GL's window coordinates.
+  void present(raster::Device& device, raster::ColorPlane plane, const raster::Rect& part);
+  raster::Rect whole() const { return {0, 0, size_.width, size_.height}; }
   void capture(raster::Device& device);
-  void copy_to_front(std::vector<uint8_t> rgba);
 
   std::shared_ptr<Connection> connection_;
   Kind kind_;
@@ -110,7 +111,8 @@ class GlxDrawable final : public state::Drawable {
   bool quiet_ = false;
   bool about_to_show_ = false;
   bool swapped_ = false;
-  std::unique_ptr<raster::Framebuffer> front_, back_;
+  bool has_front_ = false;  // the front plane holds what is seen
+  std::unique_ptr<raster::Framebuffer> framebuffer_;
   std::vector<std::unique_ptr<raster::Framebuffer>> retired_;
   std::unique_ptr<Presenter> presenter_;
 };

@@ -60,7 +60,7 @@ void* read_depth(osmesa_context& context) {
   const size_t count = static_cast<size_t>(user.width) * static_cast<size_t>(user.height);
   std::vector<uint32_t> values(count);
   state::flush_vertices(context.state);
-  context.state.device.begin_pass(&context.surface.front());
+  context.state.device.begin_pass(&context.surface.framebuffer(raster::kBackPlane));
   context.state.device.read_depth({0, 0, user.width, user.height}, values.data());
   context.depth_copy.resize(count * static_cast<size_t>(context.surface.depth_value_bytes()));
   if (context.surface.depth_value_bytes() == 4) {

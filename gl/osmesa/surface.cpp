@@ -38,7 +38,7 @@ raster::LinearImage Surface::user_image() const {
   return image;
 }
 
-void Surface::finish(raster::Device& device, raster::Framebuffer&) {
+void Surface::finish(raster::Device& device, uint8_t) {
   if (!user_.data) {
     device.finish();
     return;

@@ -43,9 +43,8 @@ class Surface final : public state::Drawable {
   const state::VisualConfig& visual() const override { return visual_; }
   int width() const override { return user_.width; }
   int height() const override { return user_.height; }
-  raster::Framebuffer& front() override { return *framebuffer_; }
-  raster::Framebuffer& back() override { return *framebuffer_; }
-  void finish(raster::Device& device, raster::Framebuffer& target) override;
+  raster::Framebuffer& framebuffer(uint8_t) override { return *framebuffer_; }
+  void finish(raster::Device& device, uint8_t planes) override;
 
  private:
   raster::LinearImage user_image() const;

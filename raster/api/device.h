@@ -92,6 +92,9 @@ class Device {
   void read_depth(const Rect& rect, uint32_t* out);
   void read_stencil(const Rect& rect, uint8_t* out);
 
+  // Copies pixels from one colour plane of the current target to the other (finishing first).
+  void copy_plane(ColorPlane from, ColorPlane to, const Rect& rect);
+
   const DeviceStatistics& statistics() const;
 
  private:

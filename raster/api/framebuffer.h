@@ -36,6 +36,7 @@ class Framebuffer {
   int width() const;
   int height() const;
   ColorFormat format() const;
+  int planes() const;
 
   struct Impl;
   Impl& impl() { return *impl_; }

@@ -157,10 +157,10 @@ FragmentParams make_params(const DrawState& state, const VertexLayout& layout, C
 }
 
 // Covers the list from the front with the longest kernels there are. False if some stage has none of the wanted kind.
-bool cover(const StageList& list, int first, bool fuse, BlockFunction KernelPair::*kind, BlockProgram& program) {
-  program.count = 0;
-  for (int at = first; at < list.count;) {
-    int length = fuse ? list.count - at : 1;
+bool cover(const StageList& list, int first, int last, bool fuse, BlockFunction KernelPair::*kind,
+           BlockProgram& program) {
+  for (int at = first; at < last;) {
+    int length = fuse ? last - at : 1;
     BlockFunction kernel = nullptr;
     for (; length >= 1; --length) {
       kernel = find_kernels(&list.ids[static_cast<size_t>(at)], length).*kind;
@@ -173,15 +173,16 @@ bool cover(const StageList& list, int first, bool fuse, BlockFunction KernelPair
   return program.count > 0;
 }
 
+bool writes_color(const DrawState& state) { return !state.color_mask.none() && state.color_targets != 0; }
+
 }  // namespace
 
 StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorFormat format, unsigned variant) {
   StageList list;
   const bool alpha_test = needs_alpha_test(state.alpha_test);
   const bool depth = needs_depth(state.depth);
-  const bool writes_color = !state.color_mask.none();
   if (depth && !alpha_test) list.add(depth_stage(state.depth));
-  if (writes_color || alpha_test) {
+  if (writes_color(state) || alpha_test) {
     if (state.texture.view != nullptr && layout.tex_coord >= 0)
       add_texture_stages(state, layout, variant, list);
     else
@@ -191,7 +192,8 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
     list.add(StageId::alpha_test);
     if (depth) list.add(depth_stage(state.depth));
   }
-  if (!writes_color) return list;
+  list.tail = list.count;
+  if (!writes_color(state)) return list;
   const bool rgba8 = format == ColorFormat::rgba8;
   if (blends(state.blend)) list.add(rgba8 ? StageId::blend_rgba8 : StageId::blend_rgba32f);
   if (!rgba8) list.add(StageId::write_rgba32f);
@@ -202,18 +204,29 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
 PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse) {
   PipelineProgram program;
   program.params = make_params(state, layout, format);
-  for (unsigned variant = 0; variant < kVariantCount; ++variant)
-    cover(list_stages(state, layout, format, variant), 0, fuse, &KernelPair::block, program.variants[variant]);
+  program.writes_color = writes_color(state);
+  program.plane = state.color_targets == kFrontPlane ? 1 : 0;
+  program.both_planes = program.writes_color && state.color_targets == (kBackPlane | kFrontPlane);
+  for (unsigned variant = 0; variant < kVariantCount; ++variant) {
+    const StageList list = list_stages(state, layout, format, variant);
+    BlockProgram& blocks = program.variants[variant];
+    if (program.both_planes) {
+      cover(list, 0, list.tail, fuse, &KernelPair::block, blocks);
+      blocks.head = blocks.count;
+    }
+    cover(list, program.both_planes ? list.tail : 0, list.count, fuse, &KernelPair::block, blocks);
+  }
   const bool depth = needs_depth(state.depth);
   program.depth = state.depth;
   program.depth.test = depth;
-  program.packs = !needs_alpha_test(state.alpha_test);
-  for (unsigned variant = 0; variant <= kAffine; ++variant)
-    program.packs = program.packs && cover(list_stages(state, layout, format, variant), depth ? 1 : 0, fuse,
-                                           &KernelPair::packed, program.packed[variant]);
+  program.packs = !needs_alpha_test(state.alpha_test) && !program.both_planes;
+  for (unsigned variant = 0; variant <= kAffine; ++variant) {
+    const StageList list = list_stages(state, layout, format, variant);
+    program.packs = program.packs && cover(list, depth ? 1 : 0, list.count, fuse, &KernelPair::packed,
+                                           program.packed[variant]);
+  }
   const CompareFunc func = state.depth.func;
   const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
-  program.writes_color = !state.color_mask.none();
   program.reads_depth = depth;
   program.writes_depth = depth && state.depth.write;
   program.rejects_deeper = depth && lowers;

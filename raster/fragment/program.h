@@ -22,6 +22,7 @@ inline constexpr int kMaxStages = 12;
 struct StageList {
   std::array<StageId, kMaxStages> ids{};
   int count = 0;
+  int tail = 0;  // the first stage that touches colour memory
   void add(StageId id) { ids[static_cast<size_t>(count++)] = id; }
   bool operator==(const StageList&) const = default;
 };
@@ -30,8 +31,14 @@ struct StageList {
 struct BlockProgram {
   std::array<BlockFunction, kMaxStages> kernels{};
   int count = 0;
-  void run(BlockContext& block) const {
-    for (int i = 0; i < count && block.live != 0; ++i) kernels[static_cast<size_t>(i)](block);
+  int head = 0;  // kernels before the first that touches colour memory, where there are two planes to do that to
+  void run(BlockContext& block) const { run(block, 0, count); }
+  void run_head(BlockContext& block) const { run(block, 0, head); }
+  void run_tail(BlockContext& block) const { run(block, head, count); }
+
+ private:
+  void run(BlockContext& block, int first, int last) const {
+    for (int i = first; i < last && block.live != 0; ++i) kernels[static_cast<size_t>(i)](block);
   }
 };
 
@@ -43,13 +50,15 @@ struct PipelineProgram {
   DepthState depth;  // the test that packing does; test == false: none
   FragmentParams params;
   bool reads_depth = false, writes_depth = false, writes_color = false;
+  int plane = 0;  // index of the colour plane drawn to; with `both_planes` the other one is, too
+  bool both_planes = false;
   bool rejects_deeper = false;  // depth test is LESS or LEQUAL and runs first: coarse z may drop a block
   bool depth_may_grow = false;  // the depth function can store a larger value
   bool depth_pass_lowers = false;  // every pixel of a full block ends at or before the primitive
   bool draws_nothing = false;
 };
 
-// Which stages the state calls for. `variant`: bits of Variant.
+// Which stages the state calls for, drawing on its colour targets. `variant`: bits of Variant.
 StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorFormat format, unsigned variant);
 
 // fuse: false runs every stage alone.

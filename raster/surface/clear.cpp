@@ -1,6 +1,7 @@
 #include "raster/surface/clear.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfspace::raster {
 namespace {
@@ -53,45 +54,67 @@ void for_pixels(uint64_t blocks, const Rect& inside, const Rect& tile, Visit vis
   }
 }
 
-void clear_tile_color(Framebuffer::Impl& fb, size_t tile, const TileCut& cut, const Rect& inside,
-                      const ClearCommand& command) {
-  TileState& state = fb.tiles[tile];
-  const Color value = fb.format == ColorFormat::rgba8 ? clamped(command.color_value) : command.color_value;
-  const uint32_t packed = pack_rgba8(command.color_value);
-  const bool masked = !command.color_mask.all();
-  const uint64_t by_pixel = masked ? cut.whole | cut.partial : cut.partial;
-  if (by_pixel != 0 || cut.whole != ~uint64_t{0}) fb.settle_color(tile, ~(masked ? 0 : cut.whole));
-  if (by_pixel != 0) {
-    if (fb.format == ColorFormat::rgba8) {
-      const uint32_t mask = byte_mask(command.color_mask);
-      uint32_t* pixels = fb.color_tile<uint32_t>(tile);
-      for_pixels(by_pixel, inside, fb.tile_rect(tile), [&](int block, int i) {
-        uint32_t& pixel = pixels[block * kBlockPixels + i];
-        pixel = (packed & mask) | (pixel & ~mask);
-      });
-    } else {
-      const float values[4] = {value.r, value.g, value.b, value.a};
-      const bool on[4] = {command.color_mask.r, command.color_mask.g, command.color_mask.b, command.color_mask.a};
-      float* pixels = fb.color_tile<float>(tile);
-      for_pixels(by_pixel, inside, fb.tile_rect(tile), [&](int block, int i) {
-        for (int c = 0; c < 4; ++c)
-          if (on[c]) pixels[(block * 4 + c) * kBlockPixels + i] = values[c];
-      });
-    }
+// A tile, and what a clear takes of it.
+struct TileClear {
+  Framebuffer::Impl& fb;
+  size_t tile;
+  TileCut cut;
+  const Rect& inside;
+
+  TileState& state() const { return fb.tiles[tile]; }
+  // Marks of all blocks but the whole ones have to go before the clear value changes, and before pixels are written.
+  // With a mask, pixels of whole blocks are written too.
+  uint64_t to_settle(bool masked) const { return masked ? ~uint64_t{0} : ~cut.whole; }
+  uint64_t by_pixel(bool masked) const { return masked ? cut.whole | cut.partial : cut.partial; }
+  template <class Visit>
+  void visit_pixels(bool masked, Visit visit) const {
+    for_pixels(by_pixel(masked), inside, fb.tile_rect(tile), visit);
   }
-  if (masked || cut.whole == 0) return;
-  state.clear_rgba8 = packed;
-  state.clear_color = value;
-  state.color_is_clear |= cut.whole;
+};
+
+void clear_bytes(const TileClear& at, int plane, const ColorMask& color_mask, uint32_t packed) {
+  const uint32_t mask = byte_mask(color_mask);
+  uint32_t* pixels = at.fb.color_tile<uint32_t>(at.tile, plane);
+  at.visit_pixels(!color_mask.all(), [&](int block, int i) {
+    uint32_t& pixel = pixels[block * kBlockPixels + i];
+    pixel = (packed & mask) | (pixel & ~mask);
+  });
 }
 
-void clear_tile_depth(Framebuffer::Impl& fb, size_t tile, const TileCut& cut, const Rect& inside, uint32_t value) {
-  TileState& state = fb.tiles[tile];
-  if (cut.whole != ~uint64_t{0}) fb.settle_depth(tile, ~cut.whole);
+void clear_floats(const TileClear& at, int plane, const ColorMask& mask, const Color& value) {
+  const float values[4] = {value.r, value.g, value.b, value.a};
+  const bool on[4] = {mask.r, mask.g, mask.b, mask.a};
+  float* pixels = at.fb.color_tile<float>(at.tile, plane);
+  at.visit_pixels(!mask.all(), [&](int block, int i) {
+    for (int c = 0; c < 4; ++c)
+      if (on[c]) pixels[(block * 4 + c) * kBlockPixels + i] = values[c];
+  });
+}
+
+void clear_tile_color(const TileClear& at, int plane, const ClearCommand& command) {
+  const bool bytes = at.fb.format == ColorFormat::rgba8;
+  const Color value = bytes ? clamped(command.color_value) : command.color_value;
+  const uint32_t packed = pack_rgba8(command.color_value);
+  const bool masked = !command.color_mask.all();
+  if (at.to_settle(masked) != 0) at.fb.settle_color(at.tile, at.to_settle(masked), plane);
+  if (at.by_pixel(masked) != 0) {
+    if (bytes) clear_bytes(at, plane, command.color_mask, packed);
+    else clear_floats(at, plane, command.color_mask, value);
+  }
+  if (masked || at.cut.whole == 0) return;
+  ColorMarks& marks = at.state().color[plane];
+  marks.rgba8 = packed;
+  marks.value = value;
+  marks.is_clear |= at.cut.whole;
+}
+
+void clear_tile_depth(const TileClear& at, uint32_t value) {
+  TileState& state = at.state();
+  const TileCut& cut = at.cut;
+  if (at.to_settle(false) != 0) at.fb.settle_depth(at.tile, at.to_settle(false));
   if (cut.partial != 0) {
-    uint32_t* pixels = fb.depth_tile(tile);
-    for_pixels(cut.partial, inside, fb.tile_rect(tile),
-               [&](int block, int i) { pixels[block * kBlockPixels + i] = value; });
+    uint32_t* pixels = at.fb.depth_tile(at.tile);
+    at.visit_pixels(false, [&](int block, int i) { pixels[block * kBlockPixels + i] = value; });
   }
   for (int block = 0; block < kTileBlocks; ++block) {
     if ((cut.whole >> block & 1) != 0) state.depth_max[block] = value;
@@ -102,23 +125,70 @@ void clear_tile_depth(Framebuffer::Impl& fb, size_t tile, const TileCut& cut, co
   state.depth_is_clear |= cut.whole;
 }
 
+void clear_tile_stencil(const TileClear& at, uint8_t value, uint8_t mask) {
+  const bool masked = mask != 0xff;
+  if (at.to_settle(masked) != 0) at.fb.settle_stencil(at.tile, at.to_settle(masked));
+  if (at.by_pixel(masked) != 0) {
+    uint8_t* pixels = at.fb.stencil_tile(at.tile);
+    at.visit_pixels(masked, [&](int block, int i) {
+      uint8_t& pixel = pixels[block * kBlockPixels + i];
+      pixel = static_cast<uint8_t>((value & mask) | (pixel & ~mask));
+    });
+  }
+  if (masked || at.cut.whole == 0) return;
+  at.state().clear_stencil = value;
+  at.state().stencil_is_clear |= at.cut.whole;
+}
+
+void clear_tile_accum(const TileClear& at, const int16_t value[4]) {
+  if (at.to_settle(false) != 0) at.fb.settle_accum(at.tile, at.to_settle(false));
+  if (at.cut.partial != 0) {
+    int16_t* pixels = at.fb.accum_tile(at.tile);
+    at.visit_pixels(false, [&](int block, int i) { std::copy_n(value, 4, pixels + (block * kBlockPixels + i) * 4); });
+  }
+  if (at.cut.whole == 0) return;
+  std::copy_n(value, 4, at.state().clear_accum);
+  at.state().accum_is_clear |= at.cut.whole;
+}
+
+void clear_tile(const TileClear& at, const ClearCommand& command, uint8_t targets) {
+  for (const ColorPlane plane : {kBackPlane, kFrontPlane})
+    if ((targets & plane) != 0) clear_tile_color(at, plane_index(plane), command);
+  if (command.depth && command.depth_write) clear_tile_depth(at, depth_to_24_bits(command.depth_value));
+  if (command.stencil && command.stencil_mask != 0)
+    clear_tile_stencil(at, command.stencil_value, command.stencil_mask);
+  if (command.accum) {
+    const int16_t value[4] = {accum_fixed(command.accum_value.r), accum_fixed(command.accum_value.g),
+                              accum_fixed(command.accum_value.b), accum_fixed(command.accum_value.a)};
+    clear_tile_accum(at, value);
+  }
+}
+
 }  // namespace
+
+int16_t accum_fixed(double value) {
+  const double bounded = value > -1 ? std::min(value, 1.0) : -1.0;  // NaN is -1
+  return static_cast<int16_t>(std::floor(bounded * kAccumOne + 0.5));
+}
 
 bool clears_everything(const Framebuffer::Impl& fb, const ClearCommand& command) {
   const bool everywhere = clear_rect(fb, command) == Rect{0, 0, fb.width, fb.height};
-  return everywhere && (!command.color || command.color_mask.all()) && (!command.depth || command.depth_write);
+  return everywhere && (!command.color || command.color_mask.all()) && (!command.depth || command.depth_write) &&
+         (!command.stencil || command.stencil_mask == 0xff);
 }
 
 void clear(Framebuffer::Impl& fb, const ClearCommand& command) {
   const Rect rect = clear_rect(fb, command);
-  const bool color = command.color && !command.color_mask.none(), depth = command.depth && command.depth_write;
   if (rect.empty()) return;
+  const uint8_t targets =
+      command.color && !command.color_mask.none() ? fb.existing(command.color_targets) : uint8_t{0};
   if (!clears_everything(fb, command)) {
     // Only then may pixels have to be written one by one.
-    if (color) fb.need_color();
-    if (depth) fb.need_depth();
+    fb.need_color(targets);
+    if (command.depth && command.depth_write) fb.need_depth();
+    if (command.stencil && command.stencil_mask != 0) fb.need_stencil();
+    if (command.accum) fb.need_accum();
   }
-  const uint32_t depth_value = depth_to_24_bits(command.depth_value);
   for (int ty = rect.y0 / kTileSize; ty * kTileSize < rect.y1; ++ty) {
     for (int tx = rect.x0 / kTileSize; tx * kTileSize < rect.x1; ++tx) {
       const size_t tile = static_cast<size_t>(ty) * static_cast<size_t>(fb.tiles_x) + static_cast<size_t>(tx);
@@ -126,8 +196,7 @@ void clear(Framebuffer::Impl& fb, const ClearCommand& command) {
       TileCut cut;
       if (intersect(bounds, rect) == bounds) cut.whole = ~uint64_t{0};
       else cut = cut_tile(rect, bounds);
-      if (color) clear_tile_color(fb, tile, cut, rect, command);
-      if (depth) clear_tile_depth(fb, tile, cut, rect, depth_value);
+      clear_tile({fb, tile, cut, rect}, command, targets);
     }
   }
 }

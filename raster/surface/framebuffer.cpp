@@ -9,6 +9,13 @@ namespace {
 
 int tiles_for(int pixels) { return (pixels + kTileSize - 1) / kTileSize; }
 
+// Fills the blocks of `mask` that are marked, and takes their marks off. `fill(block)` writes one block.
+template <class Fill>
+void settle(uint64_t& marks, uint64_t mask, Fill fill) {
+  for (uint64_t todo = marks & mask; todo != 0; todo &= todo - 1) fill(std::countr_zero(todo));
+  marks &= ~mask;
+}
+
 }  // namespace
 
 uint32_t pack_rgba8(const Color& c) {
@@ -19,19 +26,29 @@ uint32_t pack_rgba8(const Color& c) {
   return byte(c.r) | byte(c.g) << 8 | byte(c.b) << 16 | byte(c.a) << 24;
 }
 
-Framebuffer::Impl::Impl(int w, int h, ColorFormat f)
-    : width(w), height(h), tiles_x(tiles_for(w)), tiles_y(tiles_for(h)), format(f) {
+// All pixels are zero, and nothing is stored yet: the tiles start as cleared to zero.
+Framebuffer::Impl::Impl(int w, int h, ColorFormat f, int plane_count)
+    : width(w), height(h), tiles_x(tiles_for(w)), tiles_y(tiles_for(h)), planes(plane_count), format(f) {
   tiles.resize(static_cast<size_t>(tiles_x) * static_cast<size_t>(tiles_y));
-  // All pixels are zero, and nothing is stored yet: the same as cleared to zero.
-  for (TileState& tile : tiles) tile.color_is_clear = tile.depth_is_clear = ~uint64_t{0};
 }
 
-void Framebuffer::Impl::need_color() {
-  if (!color_) color_ = PageBuffer(tiles.size() * kTilePixels * color_pixel_bytes());
+void Framebuffer::Impl::need_color(uint8_t targets) {
+  for (const ColorPlane plane : {kBackPlane, kFrontPlane}) {
+    PageBuffer& pixels = color_[plane_index(plane)];
+    if ((targets & plane) != 0 && !pixels) pixels = PageBuffer(tiles.size() * kTilePixels * color_pixel_bytes());
+  }
 }
 
 void Framebuffer::Impl::need_depth() {
   if (!depth_) depth_ = PageBuffer(tiles.size() * kTilePixels * sizeof(uint32_t));
+}
+
+void Framebuffer::Impl::need_stencil() {
+  if (!stencil_) stencil_ = PageBuffer(tiles.size() * kTilePixels);
+}
+
+void Framebuffer::Impl::need_accum() {
+  if (!accum_) accum_ = PageBuffer(tiles.size() * kTilePixels * 4 * sizeof(int16_t));
 }
 
 Rect Framebuffer::Impl::tile_rect(size_t tile) const {
@@ -40,39 +57,52 @@ Rect Framebuffer::Impl::tile_rect(size_t tile) const {
   return {x, y, std::min(x + kTileSize, width), std::min(y + kTileSize, height)};
 }
 
-void Framebuffer::Impl::settle_color(size_t tile, uint64_t mask) {
-  TileState& state = tiles[tile];
-  for (uint64_t todo = state.color_is_clear & mask; todo != 0; todo &= todo - 1) {
-    const int block = std::countr_zero(todo);
-    std::byte* pixels = color_tile<std::byte>(tile) + static_cast<size_t>(block) * kBlockPixels * color_pixel_bytes();
+void Framebuffer::Impl::settle_color(size_t tile, uint64_t mask, int plane) {
+  ColorMarks& marks = tiles[tile].color[plane];
+  settle(marks.is_clear, mask, [&](int block) {
+    std::byte* pixels = color_tile<std::byte>(tile, plane) + static_cast<size_t>(block) * kBlockPixels * color_pixel_bytes();
     if (format == ColorFormat::rgba8) {
-      std::fill_n(reinterpret_cast<uint32_t*>(pixels), kBlockPixels, state.clear_rgba8);
-    } else {
-      float* planes = reinterpret_cast<float*>(pixels);
-      const float value[4] = {state.clear_color.r, state.clear_color.g, state.clear_color.b, state.clear_color.a};
-      for (int c = 0; c < 4; ++c) std::fill_n(planes + c * kBlockPixels, kBlockPixels, value[c]);
+      std::fill_n(reinterpret_cast<uint32_t*>(pixels), kBlockPixels, marks.rgba8);
+      return;
     }
-  }
-  state.color_is_clear &= ~mask;
+    float* channels = reinterpret_cast<float*>(pixels);
+    const float value[4] = {marks.value.r, marks.value.g, marks.value.b, marks.value.a};
+    for (int c = 0; c < 4; ++c) std::fill_n(channels + c * kBlockPixels, kBlockPixels, value[c]);
+  });
 }
 
 void Framebuffer::Impl::settle_depth(size_t tile, uint64_t mask) {
   TileState& state = tiles[tile];
-  for (uint64_t todo = state.depth_is_clear & mask; todo != 0; todo &= todo - 1) {
-    const int block = std::countr_zero(todo);
+  settle(state.depth_is_clear, mask, [&](int block) {
     std::fill_n(depth_tile(tile) + block * kBlockPixels, kBlockPixels, state.clear_depth);
-  }
-  state.depth_is_clear &= ~mask;
+  });
 }
 
-Framebuffer::Framebuffer(int width, int height, ColorFormat format, int) {
+void Framebuffer::Impl::settle_stencil(size_t tile, uint64_t mask) {
+  TileState& state = tiles[tile];
+  settle(state.stencil_is_clear, mask, [&](int block) {
+    std::fill_n(stencil_tile(tile) + block * kBlockPixels, kBlockPixels, state.clear_stencil);
+  });
+}
+
+void Framebuffer::Impl::settle_accum(size_t tile, uint64_t mask) {
+  TileState& state = tiles[tile];
+  settle(state.accum_is_clear, mask, [&](int block) {
+    int16_t* out = accum_tile(tile) + block * kBlockPixels * 4;
+    for (int i = 0; i < kBlockPixels; ++i) std::copy_n(state.clear_accum, 4, out + i * 4);
+  });
+}
+
+Framebuffer::Framebuffer(int width, int height, ColorFormat format, int planes) {
   if (width < 1 || height < 1 || width > kMaxSurfaceSize || height > kMaxSurfaceSize)
     throw std::invalid_argument("framebuffer: width and height must be 1 to 16384");
-  impl_ = std::make_unique<Impl>(width, height, format);
+  if (planes < 1 || planes > kMaxColorPlanes) throw std::invalid_argument("framebuffer: 1 or 2 colour planes");
+  impl_ = std::make_unique<Impl>(width, height, format, planes);
 }
 Framebuffer::~Framebuffer() = default;
 int Framebuffer::width() const { return impl_->width; }
 int Framebuffer::height() const { return impl_->height; }
 ColorFormat Framebuffer::format() const { return impl_->format; }
+int Framebuffer::planes() const { return impl_->planes; }
 
 }  // namespace halfspace::raster

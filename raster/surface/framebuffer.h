@@ -19,42 +19,65 @@ inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 inline constexpr int kTilePixels = kTileSize * kTileSize;
 inline constexpr int kTileBlocks = kTilePixels / kBlockPixels;
 
+inline constexpr int kMaxColorPlanes = 2;
+// Where a ColorPlane lies among a framebuffer's planes.
+inline int plane_index(ColorPlane plane) { return plane == kFrontPlane ? 1 : 0; }
+
 // A clear marks blocks; their memory is written when something is drawn on them. Bit b: block b.
+struct ColorMarks {
+  uint64_t is_clear = ~uint64_t{0};
+  uint32_t rgba8 = 0;
+  Color value;  // the same colour, for rgba32f
+};
 struct TileState {
-  uint64_t color_is_clear = 0, depth_is_clear = 0;
-  uint32_t clear_rgba8 = 0;
+  ColorMarks color[kMaxColorPlanes];
+  uint64_t depth_is_clear = ~uint64_t{0};
   uint32_t clear_depth = 0;
-  Color clear_color;                    // the same colour, for rgba32f
+  uint8_t clear_stencil = 0;
+  uint64_t stencil_is_clear = ~uint64_t{0}, accum_is_clear = ~uint64_t{0};
+  int16_t clear_accum[4] = {};
   uint32_t depth_max[kTileBlocks] = {};  // no pixel of the block lies deeper: 24-bit, coarse z
 };
 
 // A framebuffer's storage as the tile workers see it.
 struct Framebuffer::Impl {
-  Impl(int w, int h, ColorFormat f);
+  Impl(int w, int h, ColorFormat f, int plane_count);
 
   int width, height, tiles_x, tiles_y;
+  int planes;
   ColorFormat format;
   std::vector<TileState> tiles;
 
   size_t color_pixel_bytes() const { return format == ColorFormat::rgba8 ? 4 : 16; }
-  // First pixel of a tile; an rgba32f pixel is four floats. need_color / need_depth must have been called.
+  // First pixel of a tile; an rgba32f pixel is four floats. The plane must have been asked for with need_*.
   template <class T>
-  T* color_tile(size_t tile) const {
-    return reinterpret_cast<T*>(color_.as<std::byte>() + tile * kTilePixels * color_pixel_bytes());
+  T* color_tile(size_t tile, int plane) const {
+    return reinterpret_cast<T*>(color_[plane].as<std::byte>() + tile * kTilePixels * color_pixel_bytes());
   }
   uint32_t* depth_tile(size_t tile) const { return depth_.as<uint32_t>() + tile * kTilePixels; }
-  // Storage comes to be at the first call.
-  void need_color();
+  uint8_t* stencil_tile(size_t tile) const { return stencil_.as<uint8_t>() + tile * kTilePixels; }
+  // Four numbers a pixel, r g b a; 32767 is 1.0.
+  int16_t* accum_tile(size_t tile) const { return accum_.as<int16_t>() + tile * kTilePixels * 4; }
+  // Storage comes to be at the first call. `targets`: bits of ColorPlane.
+  void need_color(uint8_t targets);
   void need_depth();
+  void need_stencil();
+  void need_accum();
+  // Those of `targets` that there are: a framebuffer of one plane has the back plane only.
+  uint8_t existing(uint8_t targets) const {
+    return static_cast<uint8_t>(targets & (planes == 2 ? kBackPlane | kFrontPlane : kBackPlane));
+  }
 
   // The tile's pixels inside the framebuffer, in window coordinates.
   Rect tile_rect(size_t tile) const;
   // Writes the clear value into the blocks of `mask` that still only hold it as a mark.
-  void settle_color(size_t tile, uint64_t mask);
+  void settle_color(size_t tile, uint64_t mask, int plane);
   void settle_depth(size_t tile, uint64_t mask);
+  void settle_stencil(size_t tile, uint64_t mask);
+  void settle_accum(size_t tile, uint64_t mask);
 
  private:
-  PageBuffer color_, depth_;
+  PageBuffer color_[kMaxColorPlanes], depth_, stencil_, accum_;
 };
 
 // Rounds to nearest; `c` is clamped to [0, 1], NaN is 0.

@@ -1,6 +1,7 @@
 #include "raster/surface/resolve.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace halfspace::raster {
@@ -33,13 +34,13 @@ uint32_t to_byte(float v) {
   return static_cast<uint32_t>((v > 0 ? std::min(v, 1.0f) : 0.0f) * 255.0f + 0.5f);
 }
 
-void copy_blocks_rgba8(const Framebuffer::Impl& fb, int x0, int x1, int y, uint32_t* out) {
+void copy_blocks_rgba8(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, uint32_t* out) {
   for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
-    const TileState& state = fb.tiles[row.tile];
-    if (is_marked(state.color_is_clear, row.block)) {
-      std::fill_n(out + at, row.count, state.clear_rgba8);
+    const ColorMarks& marks = fb.tiles[row.tile].color[plane];
+    if (is_marked(marks.is_clear, row.block)) {
+      std::fill_n(out + at, row.count, marks.rgba8);
     } else {
-      const auto* pixels = fb.color_tile<uint32_t>(row.tile) + row.block * kBlockPixels + row.first_pixel;
+      const auto* pixels = fb.color_tile<uint32_t>(row.tile, plane) + row.block * kBlockPixels + row.first_pixel;
       std::memcpy(out + at, pixels, static_cast<size_t>(row.count) * sizeof(uint32_t));
     }
   });
@@ -51,10 +52,10 @@ struct TileBand {
   const uint32_t* block[8];
   int step[8];
 
-  TileBand(const Framebuffer::Impl& fb, size_t tile, int band, const uint32_t* clear_row) {
+  TileBand(const Framebuffer::Impl& fb, size_t tile, int plane, int band, const uint32_t* clear_row) {
     for (int b = 0; b < 8; ++b) {
-      const bool marked = is_marked(fb.tiles[tile].color_is_clear, band * 8 + b);
-      block[b] = marked ? clear_row : fb.color_tile<uint32_t>(tile) + (band * 8 + b) * kBlockPixels;
+      const bool marked = is_marked(fb.tiles[tile].color[plane].is_clear, band * 8 + b);
+      block[b] = marked ? clear_row : fb.color_tile<uint32_t>(tile, plane) + (band * 8 + b) * kBlockPixels;
       step[b] = marked ? 0 : kBlockSize;
     }
   }
@@ -64,15 +65,15 @@ struct TileBand {
   }
 };
 
-void copy_blocks_float(const Framebuffer::Impl& fb, int x0, int x1, int y, float* out) {
+void copy_blocks_float(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, float* out) {
   for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
-    const TileState& state = fb.tiles[row.tile];
-    const float clear[4] = {state.clear_color.r, state.clear_color.g, state.clear_color.b, state.clear_color.a};
-    const bool marked = is_marked(state.color_is_clear, row.block);
-    const float* planes = marked ? nullptr : fb.color_tile<float>(row.tile) + row.block * kBlockPixels * 4;
+    const ColorMarks& marks = fb.tiles[row.tile].color[plane];
+    const float clear[4] = {marks.value.r, marks.value.g, marks.value.b, marks.value.a};
+    const bool marked = is_marked(marks.is_clear, row.block);
+    const float* channels = marked ? nullptr : fb.color_tile<float>(row.tile, plane) + row.block * kBlockPixels * 4;
     for (int i = 0; i < row.count; ++i)
       for (int c = 0; c < 4; ++c)
-        out[(at + i) * 4 + c] = marked ? clear[c] : planes[c * kBlockPixels + row.first_pixel + i];
+        out[(at + i) * 4 + c] = marked ? clear[c] : channels[c * kBlockPixels + row.first_pixel + i];
   });
 }
 
@@ -142,16 +143,17 @@ bool takes_rgba8(const LinearImage& image) {
 }
 
 // The usual case: a whole tile of bytes.
-bool resolve_whole_tile(const Framebuffer::Impl& fb, uint32_t tile, const Rect& rect, const LinearImage& image) {
+bool resolve_whole_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, const Rect& rect,
+                        const LinearImage& image) {
   if (fb.format != ColorFormat::rgba8 || image.float_components || rect.x1 - rect.x0 != kTileSize ||
       rect.y1 - rect.y0 != kTileSize)
     return false;
   const bool direct = takes_rgba8(image);
   const uint32_t alpha = image.opaque ? 0xff000000u : 0u;
   uint32_t clear_row[kBlockSize], pixels[kTileSize];
-  std::fill_n(clear_row, kBlockSize, fb.tiles[tile].clear_rgba8);
+  std::fill_n(clear_row, kBlockSize, fb.tiles[tile].color[plane].rgba8);
   for (int band = 0; band < 8; ++band) {
-    const TileBand rows(fb, tile, band, clear_row);
+    const TileBand rows(fb, tile, plane, band, clear_row);
     for (int row = 0; row < kBlockSize; ++row) {
       std::byte* out = image_row(image, rect.y0 + band * kBlockSize + row) + static_cast<size_t>(rect.x0) * pixel_bytes(image);
       if (direct) {
@@ -166,12 +168,12 @@ bool resolve_whole_tile(const Framebuffer::Impl& fb, uint32_t tile, const Rect& 
   return true;
 }
 
-void resolve_row(const Framebuffer::Impl& fb, int x0, int x1, int y, const LinearImage& image) {
+void resolve_row(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, const LinearImage& image) {
   std::byte* out = image_row(image, y) + static_cast<size_t>(x0) * pixel_bytes(image);
   const int count = x1 - x0;
   if (image.float_components && image.layout != PixelLayout::rgb565) {
     float rgba[kTileSize * 4];
-    read_row_float(fb, x0, x1, y, rgba);
+    read_row_float(fb, plane, x0, x1, y, rgba);
     if (image.opaque)
       for (int i = 0; i < count; ++i) rgba[i * 4 + 3] = 1;
     store_row_floats(rgba, count, image.layout, out);
@@ -179,10 +181,10 @@ void resolve_row(const Framebuffer::Impl& fb, int x0, int x1, int y, const Linea
   }
   uint32_t rgba[kTileSize];
   if (takes_rgba8(image)) {
-    read_row_rgba8(fb, x0, x1, y, reinterpret_cast<uint32_t*>(out));
+    read_row_rgba8(fb, plane, x0, x1, y, reinterpret_cast<uint32_t*>(out));
     return;
   }
-  read_row_rgba8(fb, x0, x1, y, rgba);
+  read_row_rgba8(fb, plane, x0, x1, y, rgba);
   if (image.opaque)
     for (int i = 0; i < count; ++i) rgba[i] |= 0xff000000u;
   store_row_bytes(rgba, count, image.layout, out);
@@ -190,24 +192,24 @@ void resolve_row(const Framebuffer::Impl& fb, int x0, int x1, int y, const Linea
 
 }  // namespace
 
-void read_row_rgba8(const Framebuffer::Impl& fb, int x0, int x1, int y, uint32_t* out) {
-  if (fb.format == ColorFormat::rgba8) return copy_blocks_rgba8(fb, x0, x1, y, out);
+void read_row_rgba8(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, uint32_t* out) {
+  if (fb.format == ColorFormat::rgba8) return copy_blocks_rgba8(fb, plane, x0, x1, y, out);
   for (int x = x0; x < x1; x += kTileSize) {
     float rgba[kTileSize * 4];
     const int end = std::min(x + kTileSize, x1);
-    copy_blocks_float(fb, x, end, y, rgba);
+    copy_blocks_float(fb, plane, x, end, y, rgba);
     for (int i = 0; i < end - x; ++i)
       out[x - x0 + i] = to_byte(rgba[i * 4]) | to_byte(rgba[i * 4 + 1]) << 8 | to_byte(rgba[i * 4 + 2]) << 16 |
                         to_byte(rgba[i * 4 + 3]) << 24;
   }
 }
 
-void read_row_float(const Framebuffer::Impl& fb, int x0, int x1, int y, float* out) {
-  if (fb.format == ColorFormat::rgba32f) return copy_blocks_float(fb, x0, x1, y, out);
+void read_row_float(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, float* out) {
+  if (fb.format == ColorFormat::rgba32f) return copy_blocks_float(fb, plane, x0, x1, y, out);
   for (int x = x0; x < x1; x += kTileSize) {
     uint32_t rgba[kTileSize];
     const int end = std::min(x + kTileSize, x1);
-    copy_blocks_rgba8(fb, x, end, y, rgba);
+    copy_blocks_rgba8(fb, plane, x, end, y, rgba);
     for (int i = 0; i < end - x; ++i)
       for (int c = 0; c < 4; ++c)
         out[(x - x0 + i) * 4 + c] = static_cast<float>(rgba[i] >> (8 * c) & 255u) / 255.0f;
@@ -224,11 +226,54 @@ void read_row_depth(const Framebuffer::Impl& fb, int x0, int x1, int y, uint32_t
   });
 }
 
-void resolve_tile(const Framebuffer::Impl& fb, uint32_t tile, const LinearImage& image) {
+void read_row_stencil(const Framebuffer::Impl& fb, int x0, int x1, int y, uint8_t* out) {
+  for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
+    const TileState& state = fb.tiles[row.tile];
+    if (is_marked(state.stencil_is_clear, row.block))
+      std::fill_n(out + at, row.count, state.clear_stencil);
+    else
+      std::copy_n(fb.stencil_tile(row.tile) + row.block * kBlockPixels + row.first_pixel, row.count, out + at);
+  });
+}
+
+void resolve_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, const LinearImage& image) {
   // The image's top row is the framebuffer's when y goes down, so rows are told from the bottom of the image.
   const Rect rect = intersect(fb.tile_rect(tile), {0, 0, image.width, image.height});
-  if (rect.empty() || resolve_whole_tile(fb, tile, rect, image)) return;
-  for (int y = rect.y0; y < rect.y1; ++y) resolve_row(fb, rect.x0, rect.x1, y, image);
+  if (rect.empty() || resolve_whole_tile(fb, tile, plane, rect, image)) return;
+  for (int y = rect.y0; y < rect.y1; ++y) resolve_row(fb, plane, rect.x0, rect.x1, y, image);
+}
+
+namespace {
+
+void copy_whole_tile(Framebuffer::Impl& fb, uint32_t tile, int from, int to) {
+  TileState& state = fb.tiles[tile];
+  state.color[to] = state.color[from];
+  const size_t block_bytes = kBlockPixels * fb.color_pixel_bytes();
+  for (uint64_t todo = ~state.color[from].is_clear; todo != 0; todo &= todo - 1) {
+    const size_t at = static_cast<size_t>(std::countr_zero(todo)) * block_bytes;
+    std::memcpy(fb.color_tile<std::byte>(tile, to) + at, fb.color_tile<std::byte>(tile, from) + at, block_bytes);
+  }
+}
+
+// Channels that lie apart: one of bytes together, or four floats.
+void copy_row(Framebuffer::Impl& fb, int from, int to, int x0, int x1, int y) {
+  const bool bytes = fb.format == ColorFormat::rgba8;
+  for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int) {
+    for (int c = 0; c < (bytes ? 1 : 4); ++c) {
+      const int at = (row.block * (bytes ? 1 : 4) + c) * kBlockPixels + row.first_pixel;
+      std::copy_n(fb.color_tile<uint32_t>(row.tile, from) + at, row.count, fb.color_tile<uint32_t>(row.tile, to) + at);
+    }
+  });
+}
+
+}  // namespace
+
+void copy_plane_tile(Framebuffer::Impl& fb, uint32_t tile, int from, int to, const Rect& rect) {
+  const Rect all = fb.tile_rect(tile), part = intersect(all, rect);
+  if (part.empty()) return;
+  if (part == all) return copy_whole_tile(fb, tile, from, to);
+  for (const int plane : {from, to}) fb.settle_color(tile, ~uint64_t{0}, plane);
+  for (int y = part.y0; y < part.y1; ++y) copy_row(fb, from, to, part.x0, part.x1, y);
 }
 
 }  // namespace halfspace::raster

@@ -1,5 +1,7 @@
 #include "raster/tile/tile_worker.h"
 
+#include <string.h>
+
 #include "raster/isa.h"
 #include "raster/tile/coverage.h"
 
@@ -60,6 +62,28 @@ HWY_INLINE void UpdateDepthMax(TileContext& t, int lane, int block, bool full) {
   }
 }
 
+HWY_INLINE void SelectColor(TileContext& t, int block, int plane) {
+  const uint64_t bit = uint64_t{1} << block;
+  if ((t.state->color[plane].is_clear & bit) != 0) t.framebuffer->settle_color(t.tile, bit, plane);
+  std::byte* pixels = t.framebuffer->color_tile<std::byte>(t.tile, plane) +
+                      static_cast<size_t>(block) * kBlockPixels * t.framebuffer->color_pixel_bytes();
+  t.block.color = reinterpret_cast<uint32_t*>(pixels);
+  t.block.color_planes = reinterpret_cast<float*>(pixels);
+}
+
+// What touches colour memory runs once a plane, each time on the colours that the stages before it have left.
+HWY_NOINLINE void RunOnBothPlanes(TileContext& t, const BlockProgram& program, int block) {
+  BlockContext& c = t.block;
+  program.run_head(c);
+  if (c.live == 0) return;
+  alignas(64) float color[4][kBlockPixels];
+  memcpy(color, c.slot[kR], sizeof color);
+  program.run_tail(c);
+  memcpy(c.slot[kR], color, sizeof color);
+  SelectColor(t, block, 1 - t.program->plane);
+  program.run_tail(c);
+}
+
 void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   BlockContext& c = t.block;
   const SetupBatch& s = t.setup;
@@ -67,24 +91,19 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   c.dx = s.anchor_x[lane] + (block % 8) * kBlockSize;
   c.dy = s.anchor_y[lane] + (block / 8) * kBlockSize;
   if (program.rejects_deeper && BlockIsHidden(t, lane, block)) return;
-  const uint64_t bit = uint64_t{1} << block;
   if (program.reads_depth) {
+    const uint64_t bit = uint64_t{1} << block;
     if ((t.state->depth_is_clear & bit) != 0) t.framebuffer->settle_depth(t.tile, bit);
     c.depth = t.framebuffer->depth_tile(t.tile) + block * kBlockPixels;
   }
-  if (program.writes_color) {
-    if ((t.state->color_is_clear & bit) != 0) t.framebuffer->settle_color(t.tile, bit);
-    std::byte* pixels = t.framebuffer->color_tile<std::byte>(t.tile) +
-                        static_cast<size_t>(block) * kBlockPixels * t.framebuffer->color_pixel_bytes();
-    c.color = reinterpret_cast<uint32_t*>(pixels);
-    c.color_planes = reinterpret_cast<float*>(pixels);
-  }
+  if (program.writes_color) SelectColor(t, block, program.plane);
   c.lane = lane;
   c.live = mask;
   const auto fragments = static_cast<uint64_t>(__builtin_popcountll(mask));
   t.statistics->fragments += fragments;
   if ((s.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
-  program.variants[s.variant[lane]].run(c);
+  if (program.both_planes) RunOnBothPlanes(t, program.variants[s.variant[lane]], block);
+  else program.variants[s.variant[lane]].run(c);
   UpdateDepthMax(t, lane, block, mask == ~uint64_t{0});
 }
 
@@ -106,7 +125,7 @@ void FlushPacked(TileContext& t) {
   if (queue.count == 0) return;
   BlockContext& c = t.block;
   c.queue = &queue;
-  c.color = t.framebuffer->color_tile<uint32_t>(t.tile);
+  c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
   c.live = ~uint64_t{0};
   t.program->packed[t.packer.variant].run(c);
   queue.count = 0;
@@ -121,7 +140,8 @@ HWY_INLINE uint64_t WindowBlocks(int x0, int y0, int x1, int y1) {
 
 HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
   if (t.program->reads_depth && (t.state->depth_is_clear & blocks) != 0) t.framebuffer->settle_depth(t.tile, blocks);
-  if ((t.state->color_is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks);
+  const int plane = t.program->plane;
+  if ((t.state->color[plane].is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks, plane);
   if (t.program->depth_may_grow)
     for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) t.state->depth_max[__builtin_ctzll(todo)] = kDepthMax;
 }

@@ -133,6 +133,7 @@ void derive_fragment(const Context& context, DrawState& out) {
   out.alpha_test = {c.alpha_test, compare_func_of(c.alpha_func), c.alpha_reference};
   out.blend = {c.blend, blend_factor_of(c.blend_src, has_alpha), blend_factor_of(c.blend_dst, has_alpha)};
   out.color_mask = c.mask;
+  out.color_targets = draw_planes(context);
 }
 
 void derive_texture(Context& context, DrawState& out) {
@@ -192,9 +193,11 @@ raster::Accuracy accuracy_from_environment() {
 }
 
 void submit(Context& context, raster::DrawPacket& packet) try {
-  if (!context.drawable || context.color_buffer.draw_buffer == GL_NONE) return;
+  if (!context.drawable) return;
   if (!packet.state) packet.state = derive(context);
-  draw_to_buffers(context, context.device, [&](raster::Device& device) { device.draw(packet); });
+  flush_vertices(context);  // what waits was drawn before
+  context.device.begin_pass(&context.drawable->framebuffer(packet.state->color_targets));
+  context.device.draw(packet);
 } catch (const std::bad_alloc&) {
   record_error(context, GL_OUT_OF_MEMORY, "a draw");
 }

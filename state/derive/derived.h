@@ -48,7 +48,7 @@ raster::Accuracy accuracy_from_environment();
 // `mode`: GL_POINTS .. GL_POLYGON.
 raster::Primitive primitive_of(GLenum mode);
 
-// Draws on every buffer that drawing goes to. A null `packet.state` means the context's own. Out of memory is
+// Draws on what drawing goes to. A null `packet.state` means the context's own. Out of memory is
 // recorded as GL_OUT_OF_MEMORY.
 void submit(Context& context, raster::DrawPacket& packet);
 

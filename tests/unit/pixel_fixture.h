@@ -13,17 +13,16 @@ namespace halfspace::state {
 class MemoryDrawable : public Drawable {
  public:
   MemoryDrawable(int width, int height, const VisualConfig& visual, raster::ColorFormat format)
-      : visual_(visual), front_(width, height, format), back_(width, height, format) {}
+      : visual_(visual), framebuffer_(width, height, format, visual.double_buffered ? 2 : 1) {}
   const VisualConfig& visual() const override { return visual_; }
-  int width() const override { return front_.width(); }
-  int height() const override { return front_.height(); }
-  raster::Framebuffer& front() override { return front_; }
-  raster::Framebuffer& back() override { return visual_.double_buffered ? back_ : front_; }
-  void finish(raster::Device& device, raster::Framebuffer&) override { device.finish(); }
+  int width() const override { return framebuffer_.width(); }
+  int height() const override { return framebuffer_.height(); }
+  raster::Framebuffer& framebuffer(uint8_t) override { return framebuffer_; }
+  void finish(raster::Device& device, uint8_t) override { device.finish(); }
 
  private:
   VisualConfig visual_;
-  raster::Framebuffer front_, back_;
+  raster::Framebuffer framebuffer_;
 };
 
 class PixelTest : public ::testing::Test {

@@ -55,6 +55,7 @@ void Device::read_color(const Rect&, uint8_t*, ColorPlane) {}
 void Device::read_color_float(const Rect&, float*, ColorPlane) {}
 void Device::read_depth(const Rect&, uint32_t*) {}
 void Device::read_stencil(const Rect&, uint8_t*) {}
+void Device::copy_plane(ColorPlane, ColorPlane, const Rect&) {}
 void Device::draw_pixels(const PixelPacket&) {}
 void Device::accumulate(const AccumCommand&) {}
 ShadedPoint Device::shade_point(const DrawState&, const VertexBatch&) { return {}; }

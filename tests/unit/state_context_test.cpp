@@ -13,52 +13,69 @@ using raster::recorded_draws;
 class DoubleBufferedTest : public StateTest {
  protected:
   DoubleBufferedTest() : StateTest(double_buffered()) { recorded_draws.clear(); }
-  std::vector<raster::Framebuffer*> targets_of_a_rectangle() {
+  // Planes a rectangle is drawn to.
+  int targets_of_a_rectangle() {
     recorded_draws.clear();
     op::rect(*context, 0, 0, 1, 1);
     flush_vertices(*context);
-    std::vector<raster::Framebuffer*> targets;
-    for (const auto& draw : recorded_draws) targets.push_back(draw.target);
-    return targets;
+    EXPECT_EQ(recorded_draws.size(), 1u);
+    EXPECT_EQ(recorded_draws.back().target, &drawable.framebuffer(0));
+    return recorded_draws.back().state->color_targets;
   }
 };
 
+constexpr int kBack = raster::kBackPlane, kFront = raster::kFrontPlane;
+
 TEST_F(DoubleBufferedTest, DrawBufferChoosesTheTargets) {
-  using Targets = std::vector<raster::Framebuffer*>;
-  raster::Framebuffer *front = &drawable.front(), *back = &drawable.back();
-  const std::pair<GLenum, Targets> cases[] = {
-      {GL_NONE, {}},
-      {GL_FRONT_LEFT, {front}},
-      {GL_BACK_LEFT, {back}},
-      {GL_FRONT, {front}},
-      {GL_BACK, {back}},
-      {GL_LEFT, {front, back}},
-      {GL_FRONT_AND_BACK, {front, back}},
+  // GL_NONE too is drawn: depth and stencil go on.
+  const std::pair<GLenum, int> cases[] = {
+      {GL_NONE, 0},     {GL_FRONT_LEFT, kFront}, {GL_BACK_LEFT, kBack},
+      {GL_FRONT, kFront}, {GL_BACK, kBack},      {GL_LEFT, kFront | kBack},
+      {GL_FRONT_AND_BACK, kFront | kBack},
   };
-  EXPECT_EQ(targets_of_a_rectangle(), Targets{back});
+  EXPECT_EQ(targets_of_a_rectangle(), kBack);
+  EXPECT_EQ(drawable.asked, kBack);
   for (const auto& [mode, targets] : cases) {
     op::draw_buffer(*context, mode);
     EXPECT_EQ(op::get_error(*context), GLenum(GL_NO_ERROR));
     EXPECT_EQ(targets_of_a_rectangle(), targets) << std::hex << mode;
+    EXPECT_EQ(drawable.asked & targets, targets);
   }
 }
 
 TEST_F(DoubleBufferedTest, ReadBufferChoosesTheSource) {
-  EXPECT_EQ(read_framebuffer(*context), &drawable.back());
+  EXPECT_EQ(read_plane(*context), kBack);
   op::read_buffer(*context, GL_FRONT_LEFT);
-  EXPECT_EQ(read_framebuffer(*context), &drawable.front());
+  EXPECT_EQ(read_plane(*context), kFront);
+  EXPECT_EQ(drawable.asked & kFront, 0);
+  read_framebuffer(*context);
+  EXPECT_EQ(drawable.asked & kFront, kFront);
   op::read_buffer(*context, GL_LEFT);
-  EXPECT_EQ(read_framebuffer(*context), &drawable.front());
+  EXPECT_EQ(read_plane(*context), kFront);
 }
 
-TEST_F(DoubleBufferedTest, FlushNamesTheBufferDrawnTo) {
+TEST_F(DoubleBufferedTest, FlushNamesThePlanesDrawnTo) {
   op::flush(*context);
-  EXPECT_EQ(drawable.finished, std::vector{&drawable.back()});
+  EXPECT_EQ(drawable.finished, std::vector{kBack});
   drawable.finished.clear();
   op::draw_buffer(*context, GL_FRONT_AND_BACK);  // brings the old buffer up to date first
-  EXPECT_EQ(drawable.finished, std::vector{&drawable.back()});
+  EXPECT_EQ(drawable.finished, std::vector{kBack});
   op::finish(*context);
-  EXPECT_EQ(drawable.finished, (std::vector{&drawable.back(), &drawable.front(), &drawable.back()}));
+  EXPECT_EQ(drawable.finished, (std::vector{kBack, kFront | kBack}));
+}
+
+// A pixmap has no back buffer, whatever the context's visual has.
+TEST(Planes, ADrawableOfOnePlaneServesEitherName) {
+  MemoryDrawable drawable({}, 10, 20);
+  Context context(double_buffered(), nullptr);
+  make_current(&context, &drawable);
+  for (const GLenum mode : {GL_FRONT, GL_BACK, GL_FRONT_AND_BACK}) {
+    op::draw_buffer(context, mode);
+    EXPECT_EQ(draw_planes(context), kBack) << std::hex << mode;
+  }
+  op::read_buffer(context, GL_FRONT);
+  EXPECT_EQ(read_plane(context), kBack);
+  make_current(nullptr, nullptr);
 }
 
 TEST(MakeCurrent, SizesTheViewportOnceOnly) {

@@ -18,23 +18,25 @@ class MemoryDrawable : public Drawable {
  public:
   MemoryDrawable(const VisualConfig& config, int width, int height)
       : config_(config),
-        front_(width, height, raster::ColorFormat::rgba8),
-        back_(width, height, raster::ColorFormat::rgba8) {}
+        framebuffer_(width, height, raster::ColorFormat::rgba8, config.double_buffered ? 2 : 1) {}
   const VisualConfig& visual() const override { return config_; }
-  int width() const override { return front_.width(); }
-  int height() const override { return front_.height(); }
-  raster::Framebuffer& front() override { return front_; }
-  raster::Framebuffer& back() override { return config_.double_buffered ? back_ : front_; }
-  void finish(raster::Device& device, raster::Framebuffer& target) override {
+  int width() const override { return framebuffer_.width(); }
+  int height() const override { return framebuffer_.height(); }
+  raster::Framebuffer& framebuffer(uint8_t planes) override {
+    asked = uint8_t(asked | planes);
+    return framebuffer_;
+  }
+  void finish(raster::Device& device, uint8_t planes) override {
     device.finish();
-    finished.push_back(&target);
+    finished.push_back(planes);
   }
 
-  std::vector<raster::Framebuffer*> finished;
+  std::vector<int> finished;  // the planes each finish was about
+  uint8_t asked = 0;          // all planes that were ever wanted
 
  private:
   VisualConfig config_;
-  raster::Framebuffer front_, back_;
+  raster::Framebuffer framebuffer_;
 };
 
 inline VisualConfig double_buffered() {

@@ -128,7 +128,7 @@ TEST_F(ImmediateTest, EveryModeArrivesAsGiven) {
     const size_t n = mode == GL_LINES ? 2 : mode == GL_TRIANGLES ? 3 : mode == GL_QUADS ? 4 : 1;
     EXPECT_EQ(recorded_draws[0].vertices,
               std::vector<Corner>(corners.begin(), corners.begin() + ptrdiff_t(corners.size() / n * n)));
-    EXPECT_EQ(recorded_draws[0].target, &drawable.front());
+    EXPECT_EQ(recorded_draws[0].target, &drawable.framebuffer(0));
   }
 }
 
@@ -394,7 +394,7 @@ TEST_F(ImmediateTest, ReadingAndReleasingEndTheWait) {
   add(GL_POINTS, 1, 0);
   make_current(nullptr, nullptr);
   EXPECT_EQ(recorded_draws.size(), 3u);
-  EXPECT_EQ(recorded_draws[2].target, &drawable.front());
+  EXPECT_EQ(recorded_draws[2].target, &drawable.framebuffer(0));
 }
 
 TEST_F(ImmediateTest, OutOfMemoryIsAnErrorAndTheNextDrawIsRight) {
