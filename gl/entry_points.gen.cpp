@@ -1022,6 +1022,38 @@ HALFSPACE_ENTRY GLboolean GLAPIENTRY glIsEnabled(GLenum cap) {
   return HALFSPACE_CALL(is_enabled, cap);
 }
 
+HALFSPACE_ENTRY GLint GLAPIENTRY glRenderMode(GLenum mode) {
+  return HALFSPACE_CALL(render_mode, mode);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glSelectBuffer(GLsizei size, GLuint* buffer) {
+  HALFSPACE_CALL(select_buffer, size, buffer);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glInitNames() {
+  HALFSPACE_CALL(init_names);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLoadName(GLuint name) {
+  HALFSPACE_CALL(load_name, name);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPushName(GLuint name) {
+  HALFSPACE_CALL(push_name, name);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPopName() {
+  HALFSPACE_CALL(pop_name);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glFeedbackBuffer(GLsizei size, GLenum type, GLfloat* buffer) {
+  HALFSPACE_CALL(feedback_buffer, size, type, buffer);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPassThrough(GLfloat token) {
+  HALFSPACE_CALL(pass_through, token);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glPushAttrib(GLbitfield mask) {
   HALFSPACE_CALL(push_attrib, mask);
 }

@@ -34,6 +34,7 @@ namespace op {
 void clear(Context& context, GLbitfield mask) {
   if ((mask & ~kClearable) != 0) return record_error(context, GL_INVALID_VALUE);
   const raster::ClearCommand command = clear_command(context, mask);
+  if (!context.render_mode.renders()) return;  // as no other pixels are written (spec 5.2, 5.3)
   if (!command.color && !command.depth) return;
   guard_memory(context, [&] {
     raster::Framebuffer* framebuffer = draw_framebuffer(context);

@@ -1,4 +1,5 @@
-// A GL context: the attribute groups of the specification, side by side. The work is in the groups' own files.
+// A GL context: the attribute groups of the specification, side by side. The work is in the groups' own
+// files.
 #pragma once
 
 #include <memory>
@@ -9,9 +10,11 @@
 #include "state/color_buffer.h"
 #include "state/current.h"
 #include "state/depth_buffer.h"
+#include "state/derive/derived.h"
 #include "state/display_list.h"
 #include "state/drawable.h"
 #include "state/error.h"
+#include "state/feedback.h"
 #include "state/hint.h"
 #include "state/immediate.h"
 #include "state/lighting.h"
@@ -19,13 +22,14 @@
 #include "state/pixel_store.h"
 #include "state/pixel_transfer.h"
 #include "state/polygon.h"
+#include "state/render_mode.h"
 #include "state/scissor.h"
+#include "state/selection.h"
 #include "state/tex_gen.h"
 #include "state/texture.h"
 #include "state/transform.h"
 #include "state/vertex_array.h"
 #include "state/viewport.h"
-#include "state/derive/derived.h"
 
 namespace halfspace::state {
 
@@ -40,9 +44,10 @@ struct Context {
 
   VisualConfig visual;
   Drawable* drawable = nullptr;  // null while not current
-  Drawable* read_drawable = nullptr;  // where pixels are read, when it is not `drawable` (glXMakeContextCurrent)
-  bool was_current = false;      // the first make-current sets viewport and scissor to the drawable's size
-  const OperationTable* table;   // what executes commands now: outside, or inside Begin/End
+  Drawable* read_drawable =
+      nullptr;                  // where pixels are read, when it is not `drawable` (glXMakeContextCurrent)
+  bool was_current = false;     // the first make-current sets viewport and scissor to the drawable's size
+  const OperationTable* table;  // what executes commands now: outside, or inside Begin/End
 
   ErrorState error;
   CapabilityState capability;
@@ -65,25 +70,29 @@ struct Context {
   AttributeStackState attribute_stack;
   ListState list;
   ListMachine lists;
+  RenderModeState render_mode;
+  SelectionState selection;
+  FeedbackState feedback;
   DerivedState derived;
 
   raster::Device device;
 };
 
-// The calling thread's context and its table; null and the table of no-operations when there is none. Read by every
-// entry point, hence initial-exec, and constinit: no call to see whether it is initialised.
+// The calling thread's context and its table; null and the table of no-operations when there is none. Read by
+// every entry point, hence initial-exec, and constinit: no call to see whether it is initialised.
 struct CurrentBinding {
   Context* context;
   const OperationTable* table;
 };
 extern constinit thread_local CurrentBinding current_binding __attribute__((tls_model("initial-exec")));
 
-// Makes `context` current on `drawable` for the calling thread; both null releases. Work pending in the context that
-// was current is executed first (as glFlush). Also the way a front end says that the drawable changed its size.
+// Makes `context` current on `drawable` for the calling thread; both null releases. Work pending in the
+// context that was current is executed first (as glFlush). Also the way a front end says that the drawable
+// changed its size.
 void make_current(Context* context, Drawable* drawable);
 
-// Swaps which operations execute commands (Begin, End). Entry points reach them directly, or between NewList and EndList
-// through the table that compiles.
+// Swaps which operations execute commands (Begin, End). Entry points reach them directly, or between NewList
+// and EndList through the table that compiles.
 void set_table(Context& context, const OperationTable& table);
 
 }  // namespace halfspace::state

@@ -58,5 +58,8 @@ std::span<const GetRow> pixel_store_get_rows();
 std::span<const GetRow> attribute_stack_get_rows();
 std::span<const GetRow> pixel_transfer_get_rows();
 std::span<const GetRow> pixel_map_get_rows();
+std::span<const GetRow> render_mode_get_rows();
+std::span<const GetRow> selection_get_rows();
+std::span<const GetRow> feedback_get_rows();
 
 }  // namespace halfspace::state

@@ -172,9 +172,11 @@ void get_pointerv(Context& context, GLenum pname, GLvoid** params) {
     case GL_INDEX_ARRAY_POINTER:
       pointer = arrays.index.pointer;
       break;
-    // No command sets these yet, so both have their initial value.
     case GL_FEEDBACK_BUFFER_POINTER:
+      pointer = context.feedback.buffer;
+      break;
     case GL_SELECTION_BUFFER_POINTER:
+      pointer = context.selection.buffer;
       break;
     default:
       return record_error(context, GL_INVALID_ENUM);

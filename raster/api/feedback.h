@@ -18,6 +18,8 @@ struct FeedbackVertex {
 class FeedbackSink {
  public:
   virtual ~FeedbackSink() = default;
+  // Whether colours and texture coordinates are looked at; without, they are not worked out.
+  virtual bool needs_attributes() const { return true; }
   virtual void point(const FeedbackVertex& v) = 0;
   // `reset`: the line stipple starts anew with this line.
   virtual void line(const FeedbackVertex& a, const FeedbackVertex& b, bool reset) = 0;

@@ -158,7 +158,8 @@ bool has_edge_flags(GLenum mode) { return mode == GL_TRIANGLES || mode == GL_QUA
 
 VertexNeeds vertex_needs(const Context& context, GLenum mode) {
   const PolygonState& polygon = context.polygon;
-  const bool textured = context.texture.enabled_1d || context.texture.enabled_2d;
+  const bool textured =
+      context.texture.enabled_1d || context.texture.enabled_2d || feedback_needs_tex_coord(context);
   const bool outlined = polygon.mode[0] != GL_FILL || polygon.mode[1] != GL_FILL;
   return {textured, needs_normals(context), outlined && has_edge_flags(mode)};
 }
@@ -193,9 +194,11 @@ raster::Accuracy accuracy_from_environment() {
 }
 
 void submit(Context& context, raster::DrawPacket& packet) try {
-  if (!context.drawable) return;
   if (!packet.state) packet.state = derive(context);
   flush_vertices(context);  // what waits was drawn before
+  if (!context.render_mode.renders()) [[unlikely]]
+    return capture_draw(context, packet);
+  if (!context.drawable) return;
   context.device.begin_pass(&context.drawable->framebuffer(packet.state->color_targets));
   context.device.draw(packet);
 } catch (const std::bad_alloc&) {
