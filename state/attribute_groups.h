@@ -80,6 +80,7 @@ using AttributeGroups = std::tuple<                                             
     Group<GL_SCISSOR_BIT, Whole<&Context::scissor>>,                                            //
     Group<GL_TEXTURE_BIT, SavedTextures>,                                                       //
     Group<GL_TRANSFORM_BIT, Part<&Context::transform, &TransformState::mode>, 0>,               //
+    Group<GL_TRANSFORM_BIT, Part<&Context::transform, &TransformState::normalize>>,             //
     Group<GL_VIEWPORT_BIT, Whole<&Context::viewport>>                                           //
     >;
 

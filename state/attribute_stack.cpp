@@ -99,6 +99,7 @@ void push_attrib(Context& context, GLbitfield mask) {
   AttributeStackState& stack = context.attribute_stack;
   if (stack.server_depth == kMaxAttributeDepth) return record_error(context, GL_STACK_OVERFLOW);
   guard_memory(context, [&] {
+    settle_color_material(context);
     save(context, mask, level_at(stack.server, stack.server_depth));
     ++stack.server_depth;
   });
@@ -110,6 +111,7 @@ void pop_attrib(Context& context) {
   guard_memory(context, [&] {
     // Waiting vertices have been given their colour; that it changes now is nothing they would notice.
     flush_vertices(context);
+    settle_color_material(context);
     SavedAttributes& saved = *stack.server[stack.server_depth - 1];
     restore(context, saved);
     release(saved);
