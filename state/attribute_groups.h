@@ -76,6 +76,7 @@ using AttributeGroups = std::tuple<                                             
     Group<GL_LIST_BIT, Whole<&Context::list>, 0>,                                               //
     Group<GL_PIXEL_MODE_BIT, Part<&Context::color_buffer, &ColorBufferState::read_buffer>, 0>,  //
     Group<GL_PIXEL_MODE_BIT, Whole<&Context::pixel_transfer>, 0>,                               //
+    Group<GL_PIXEL_MODE_BIT, Whole<&Context::pixel_transfer>, 0>,                               //
     Group<GL_POLYGON_BIT, Whole<&Context::polygon>>,                                            //
     Group<GL_SCISSOR_BIT, Whole<&Context::scissor>>,                                            //
     Group<GL_TEXTURE_BIT, SavedTextures>,                                                       //

@@ -12,20 +12,37 @@ namespace {
 
 std::vector<GetRow> collect_rows() {
   std::vector<GetRow> rows;
-  capability_get_rows(), current_get_rows(), transform_get_rows(), viewport_get_rows(), scissor_get_rows(),
-      polygon_get_rows(), lighting_get_rows(), depth_buffer_get_rows(), color_buffer_get_rows(),
-      hint_get_rows(), vertex_array_get_rows(), texture_get_rows(), pixel_store_get_rows(),
-      pixel_transfer_get_rows(), pixel_map_get_rows(), attribute_stack_get_rows(), list_get_rows(),
-      render_mode_get_rows(), selection_get_rows(), feedback_get_rows(), limits_get_rows()
-}) {
+  for (auto group : {
+           capability_get_rows(),       //
+           current_get_rows(),          //
+           transform_get_rows(),        //
+           viewport_get_rows(),         //
+           scissor_get_rows(),          //
+           polygon_get_rows(),          //
+           lighting_get_rows(),         //
+           depth_buffer_get_rows(),     //
+           color_buffer_get_rows(),     //
+           hint_get_rows(),             //
+           vertex_array_get_rows(),     //
+           texture_get_rows(),          //
+           pixel_store_get_rows(),      //
+           pixel_transfer_get_rows(),   //
+           pixel_map_get_rows(),        //
+           attribute_stack_get_rows(),  //
+           list_get_rows(),             //
+           render_mode_get_rows(),      //
+           selection_get_rows(),        //
+           feedback_get_rows(),         //
+           limits_get_rows()            //
+       }) {
     rows.insert(rows.end(), group.begin(), group.end());
   }
-const auto by_name = [](const GetRow& a, const GetRow& b) { return a.name < b.name; };
-const auto same_name = [](const GetRow& a, const GetRow& b) { return a.name == b.name; };
-// limits_get_rows comes last: where a group has a living value, the fixed one gives way.
-std::stable_sort(rows.begin(), rows.end(), by_name);
-rows.erase(std::unique(rows.begin(), rows.end(), same_name), rows.end());
-return rows;
+  const auto by_name = [](const GetRow& a, const GetRow& b) { return a.name < b.name; };
+  const auto same_name = [](const GetRow& a, const GetRow& b) { return a.name == b.name; };
+  // limits_get_rows comes last: where a group has a living value, the fixed one gives way.
+  std::stable_sort(rows.begin(), rows.end(), by_name);
+  rows.erase(std::unique(rows.begin(), rows.end(), same_name), rows.end());
+  return rows;
 }
 
 // `v` is finite or not; saturates, NaN becomes 0.
