@@ -1002,6 +1002,38 @@ HALFSPACE_ENTRY void GLAPIENTRY glPolygonMode(GLenum face, GLenum mode) {
   HALFSPACE_CALL(polygon_mode, face, mode);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glPolygonOffset(GLfloat factor, GLfloat units) {
+  HALFSPACE_CALL(polygon_offset, factor, units);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPolygonStipple(const GLubyte* mask) {
+  HALFSPACE_CALL(polygon_stipple, mask);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetPolygonStipple(GLubyte* mask) {
+  HALFSPACE_CALL(get_polygon_stipple, mask);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glPointSize(GLfloat size) {
+  HALFSPACE_CALL(point_size, size);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLineWidth(GLfloat width) {
+  HALFSPACE_CALL(line_width, width);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLineStipple(GLint factor, GLushort pattern) {
+  HALFSPACE_CALL(line_stipple, factor, pattern);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glClipPlane(GLenum plane, const GLdouble* equation) {
+  HALFSPACE_CALL(clip_plane, plane, equation);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetClipPlane(GLenum plane, GLdouble* equation) {
+  HALFSPACE_CALL(get_clip_plane, plane, equation);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glShadeModel(GLenum mode) {
   HALFSPACE_CALL(shade_model, mode);
 }

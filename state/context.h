@@ -7,6 +7,7 @@
 #include "raster/api/device.h"
 #include "state/attribute_stack.h"
 #include "state/capability.h"
+#include "state/clip_plane.h"
 #include "state/color_buffer.h"
 #include "state/current.h"
 #include "state/depth_buffer.h"
@@ -21,6 +22,9 @@
 #include "state/pixel_map.h"
 #include "state/pixel_store.h"
 #include "state/pixel_transfer.h"
+#include "state/line.h"
+#include "state/pixel_store.h"
+#include "state/point.h"
 #include "state/polygon.h"
 #include "state/render_mode.h"
 #include "state/scissor.h"
@@ -55,6 +59,9 @@ struct Context {
   TransformState transform;
   ViewportState viewport;
   ScissorState scissor;
+  ClipPlaneState clip_plane;
+  PointState point;
+  LineState line;
   PolygonState polygon;
   LightingState lighting;
   DepthBufferState depth_buffer;

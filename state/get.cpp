@@ -18,6 +18,8 @@ std::vector<GetRow> collect_rows() {
            transform_get_rows(),        //
            viewport_get_rows(),         //
            scissor_get_rows(),          //
+           point_get_rows(),            //
+           line_get_rows(),             //
            polygon_get_rows(),          //
            lighting_get_rows(),         //
            depth_buffer_get_rows(),     //

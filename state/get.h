@@ -45,6 +45,8 @@ std::span<const GetRow> current_get_rows();
 std::span<const GetRow> transform_get_rows();
 std::span<const GetRow> viewport_get_rows();
 std::span<const GetRow> scissor_get_rows();
+std::span<const GetRow> point_get_rows();
+std::span<const GetRow> line_get_rows();
 std::span<const GetRow> polygon_get_rows();
 std::span<const GetRow> lighting_get_rows();
 std::span<const GetRow> depth_buffer_get_rows();

@@ -82,6 +82,16 @@ void tex_gen(Context& context, GLenum coord, GLenum pname, const GLdouble* param
   Compiled<&OperationTable::tex_gen>::execute(context, coord, pname, params);
 }
 
+void polygon_stipple(Context& context, const GLubyte* mask) {
+  compiling(context, [&] { Compiled<&OperationTable::polygon_stipple>::record_image(context, keep_image(context, 32, 32, GL_COLOR_INDEX, GL_BITMAP, mask)); });
+  Compiled<&OperationTable::polygon_stipple>::execute(context, mask);
+}
+
+void clip_plane(Context& context, GLenum plane, const GLdouble* equation) {
+  compiling(context, [&] { Compiled<&OperationTable::clip_plane>::record(context, plane, keep(context, equation, 4)); });
+  Compiled<&OperationTable::clip_plane>::execute(context, plane, equation);
+}
+
 void pixel_mapfv(Context& context, GLenum map, GLsizei size, const GLfloat* values) {
   compiling(context, [&] { Compiled<&OperationTable::pixel_mapfv>::record(context, map, size, keep(context, values, count_of(size))); });
   Compiled<&OperationTable::pixel_mapfv>::execute(context, map, size, values);
@@ -190,6 +200,14 @@ const OperationTable kCompileTable = {
     .cull_face = Compiled<&OperationTable::cull_face>::compile,
     .front_face = Compiled<&OperationTable::front_face>::compile,
     .polygon_mode = Compiled<&OperationTable::polygon_mode>::compile,
+    .polygon_offset = Compiled<&OperationTable::polygon_offset>::compile,
+    .polygon_stipple = compile::polygon_stipple,
+    .get_polygon_stipple = Compiled<&OperationTable::get_polygon_stipple>::pass,
+    .point_size = Compiled<&OperationTable::point_size>::compile,
+    .line_width = Compiled<&OperationTable::line_width>::compile,
+    .line_stipple = Compiled<&OperationTable::line_stipple>::compile,
+    .clip_plane = compile::clip_plane,
+    .get_clip_plane = Compiled<&OperationTable::get_clip_plane>::pass,
     .shade_model = Compiled<&OperationTable::shade_model>::compile,
     .hint = Compiled<&OperationTable::hint>::compile,
     .enable = Compiled<&OperationTable::enable>::compile,

@@ -35,5 +35,6 @@ struct PolygonState {
 };
 
 inline constexpr float kMaxPointSize = 256, kMaxLineWidth = 256;  // pixels, aliased and smooth
+inline constexpr double kSizeGranularity = 0.125;                  // pixels: smooth sizes are rounded to these
 
 }  // namespace halfspace::raster

@@ -124,6 +124,37 @@ void derive_lighting(const Context& context, DrawState& out) {
   derive_color_material(lighting, out.lighting);
 }
 
+raster::PolygonMode polygon_mode_of(GLenum mode) {
+  static_assert(int(raster::PolygonMode::line) == GL_LINE - GL_POINT &&
+                int(raster::PolygonMode::fill) == GL_FILL - GL_POINT);
+  return raster::PolygonMode(mode - GL_POINT);
+}
+
+void derive_shapes(const Context& context, DrawState& out) {
+  const PolygonState& p = context.polygon;
+  out.point = {context.point.size, context.point.smooth};
+  const LineState& line = context.line;
+  out.line = {line.width, line.smooth, line.stipple, line.pattern, line.repeat};
+  out.polygon = {polygon_mode_of(p.mode[0]),
+                 polygon_mode_of(p.mode[1]),
+                 p.smooth,
+                 p.stipple,
+                 p.pattern,
+                 p.offset_fill,
+                 p.offset_line,
+                 p.offset_point,
+                 p.offset_factor,
+                 p.offset_units};
+}
+
+void derive_clip_planes(const Context& context, DrawState& out) {
+  out.clip_planes.enabled = 0;
+  for (int i = 0; i < raster::kMaxClipPlanes; ++i) {
+    if (context.clip_plane.enabled[i]) out.clip_planes.enabled |= uint8_t(1 << i);
+  }
+  out.clip_planes.planes = context.clip_plane.planes;
+}
+
 void derive_fragment(const Context& context, DrawState& out) {
   const DepthBufferState& d = context.depth_buffer;
   const ColorBufferState& c = context.color_buffer;
@@ -173,7 +204,11 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   auto next = derived.state ? std::make_shared<DrawState>(*derived.state) : std::make_shared<DrawState>();
   if (derived.dirty & kDirtyTransform) derive_transform(context, *next);
   if (derived.dirty & kDirtyViewport) derive_viewport(context, *next);
-  if (derived.dirty & kDirtyRaster) derive_raster(context, *next);
+  if (derived.dirty & kDirtyRaster) {
+    derive_raster(context, *next);
+    derive_shapes(context, *next);
+  }
+  if (derived.dirty & kDirtyClipPlanes) derive_clip_planes(context, *next);
   if (derived.dirty & kDirtyLighting) derive_lighting(context, *next);
   if (derived.dirty & kDirtyFragment) derive_fragment(context, *next);
   if (derived.dirty & kDirtyTexture) derive_texture(context, *next);

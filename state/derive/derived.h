@@ -16,11 +16,12 @@ struct Context;
 enum DirtyBits : uint32_t {
   kDirtyTransform = 1,  // modelview, projection
   kDirtyViewport = 2,   // viewport, depth range
-  kDirtyRaster = 4,     // culling, shade model, scissor
+  kDirtyRaster = 4,     // points, lines, polygons, shade model, scissor
   kDirtyFragment = 8,   // alpha test, depth, blend, colour mask
   kDirtyTexture = 16,   // texture enables, bindings, objects, environment, texture matrix
   kDirtyLighting = 32,  // lights, materials, light model, colour material
-  kDirtyAll = 63,
+  kDirtyClipPlanes = 64,
+  kDirtyAll = 127,
 };
 
 struct DerivedState {
