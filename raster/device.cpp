@@ -11,6 +11,7 @@
 #include "raster/arena.h"
 #include "raster/fragment/program.h"
 #include "raster/primitive/assembly.h"
+#include "raster/primitive/shape_assembly.h"
 #include "raster/surface/clear.h"
 #include "raster/surface/resolve.h"
 #include "raster/thread_pool.h"
@@ -47,7 +48,8 @@ bool fuses(const DeviceOptions& options) {
 
 bool same_layout(const VertexLayout& a, const VertexLayout& b) {
   return a.attribute_count == b.attribute_count && a.color == b.color && a.tex_coord == b.tex_coord &&
-         a.projective == b.projective && a.fog == b.fog && a.back_color == b.back_color && a.constant_color == b.constant_color;
+         a.projective == b.projective && a.fog == b.fog && a.back_color == b.back_color && a.coverage == b.coverage &&
+         a.constant_color == b.constant_color;
 }
 
 // Vertices a primitive of its own has, or 0 for modes whose primitives share vertices.
@@ -77,10 +79,14 @@ VertexBatch part_of(VertexBatch batch, uint32_t lowest, uint32_t highest) {
   return batch;
 }
 
+Rect draw_window(const DrawState& state, const Framebuffer::Impl& fb) {
+  const Rect whole{0, 0, fb.width, fb.height};
+  return state.raster.scissor_test ? intersect(whole, state.raster.scissor) : whole;
+}
+
 Rect draw_bounds(const DrawState& state, const Framebuffer::Impl& fb) {
   const Viewport& v = state.viewport;
-  Rect bounds = intersect({0, 0, fb.width, fb.height}, {v.x, v.y, v.x + v.width, v.y + v.height});
-  return state.raster.scissor_test ? intersect(bounds, state.raster.scissor) : bounds;
+  return intersect(draw_window(state, fb), {v.x, v.y, v.x + v.width, v.y + v.height});
 }
 
 }  // namespace
@@ -110,12 +116,16 @@ struct Device::Impl {
   std::vector<uint16_t> outcodes;
   std::vector<ClipVertex> clip;
   std::vector<uint32_t> part_indices;
+  std::vector<double> clip_distances;  // of the draw at hand, from the user clip planes
+  std::vector<uint8_t> clip_codes;
+  uint32_t stipple = 0;  // where the stipple of the last line strip stands
 
   Segment& new_segment();
   Segment& open_segment();
   const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout);
   void note_texture(const TextureView& view);
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
+  void find_clip_distances(const VertexBatch& batch, DrawRecord& record);
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void draw(const DrawPacket& packet);
   void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout);
@@ -177,9 +187,21 @@ void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
   });
 }
 
+void Device::Impl::find_clip_distances(const VertexBatch& batch, DrawRecord& record) {
+  if (record.state->clip_planes.enabled == 0) return;
+  clip_distances.resize(size_t{batch.count} * kMaxClipPlanes);
+  clip_codes.resize(batch.count);
+  raster::clip_distances(*record.state, batch, clip_distances.data(), clip_codes.data());
+  record.clip_distances = clip_distances.data();
+  record.clip_codes = clip_codes.data();
+}
+
 void Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives) {
-  if (pool.size() == 1 || primitives < kParallelPrimitives) {
-    assemble(record, packet.primitive, packet.indices, packet.index_count, 0, primitives, open_segment());
+  // The stipple of a line starts where the one before it ended.
+  if (pool.size() == 1 || primitives < kParallelPrimitives || record.shape.stippled_lines) {
+    Segment& segment = open_segment();
+    assemble(record, packet.primitive, packet.indices, packet.index_count, 0, primitives, segment);
+    stipple = segment.stipple_end;
     return;
   }
   const auto parts = static_cast<uint32_t>(pool.size());
@@ -197,11 +219,14 @@ void Device::Impl::draw(const DrawPacket& packet) {
   if (target == nullptr || packet.batch.count == 0 || primitive_count(packet.primitive, packet.index_count) == 0) return;
   const DrawState& state = *packet.state;
   // Once for the whole draw: how it is cut into parts must not show.
-  const VertexLayout layout = choose_layout(state, packet.batch);
+  VertexLayout layout = choose_layout(state, packet.batch);
+  const ShapePlan shape = plan_shapes(state, packet.primitive);
+  layout.coverage = shape.coverage;
   const PipelineProgram& program = program_for(packet.state, layout);
   ++statistics.draws;
   statistics.vertices += packet.batch.count;
-  if (program.draws_nothing || draw_bounds(state, *target).empty()) return;
+  const Rect reach = shape.general ? draw_window(state, *target) : draw_bounds(state, *target);
+  if (program.draws_nothing || reach.empty()) return;
   if (program.writes_color) {
     target->need_color(state.color_targets);
     pending_targets |= state.color_targets;
@@ -239,13 +264,19 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   DrawRecord& record = draws.emplace_back();
   record.state = packet.state;
   record.bounds = draw_bounds(*packet.state, *target);
+  record.window = draw_window(*packet.state, *target);
   record.program = &program;
+  record.shape = plan_shapes(*packet.state, packet.primitive);
+  record.edge_flags = packet.batch.edge_flag;
+  record.stipple_start = packet.continues ? stipple : 0;
   record.vertices.layout = layout;
   shade(packet, record.vertices);
+  find_clip_distances(packet.batch, record);
   assemble_draw(record, packet, primitive_count(packet.primitive, packet.index_count));
   // Clip coordinates and outcodes have done their work; the next draw takes their memory.
   record.vertices.outcodes.swap(outcodes);
   record.vertices.clip.swap(clip);
+  record.clip_distances = nullptr, record.clip_codes = record.edge_flags = nullptr;
   size_t pending_primitives = 0;
   for (const Segment* segment : pending) pending_primitives += segment->primitives.size();
   const bool many_texels = textures.size() > 1 && texture_bytes > kMaxPendingTextureBytes;

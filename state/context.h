@@ -19,11 +19,10 @@
 #include "state/hint.h"
 #include "state/immediate.h"
 #include "state/lighting.h"
+#include "state/line.h"
 #include "state/pixel_map.h"
 #include "state/pixel_store.h"
 #include "state/pixel_transfer.h"
-#include "state/line.h"
-#include "state/pixel_store.h"
 #include "state/point.h"
 #include "state/polygon.h"
 #include "state/render_mode.h"
@@ -63,6 +62,7 @@ struct Context {
   PointState point;
   LineState line;
   PolygonState polygon;
+  PolygonStippleState polygon_stipple;
   LightingState lighting;
   DepthBufferState depth_buffer;
   ColorBufferState color_buffer;

@@ -70,7 +70,7 @@ void polygon_stipple(Context& context, const GLubyte* mask) {
     for (unsigned x = 0; x < 32; ++x) {
       if (mask[layout.byte(x, y)] & layout.mask(x)) row |= 0x80000000u >> x;
     }
-    context.polygon.pattern[y] = row;
+    context.polygon_stipple.pattern[y] = row;
   }
   mark_dirty(context, kDirtyRaster);
 }
@@ -82,7 +82,7 @@ void get_polygon_stipple(Context& context, GLubyte* mask) {
   for (size_t y = 0; y < 32; ++y) {
     for (unsigned x = 0; x < 32; ++x) {
       GLubyte& byte = mask[layout.byte(x, y)];
-      const bool set = context.polygon.pattern[y] & (0x80000000u >> x);
+      const bool set = context.polygon_stipple.pattern[y] & (0x80000000u >> x);
       byte = GLubyte(set ? byte | layout.mask(x) : byte & ~layout.mask(x));
     }
   }

@@ -15,9 +15,13 @@ struct PolygonState {
   GLenum mode[2] = {GL_FILL, GL_FILL};  // front, back
   bool smooth = false;
   bool stipple = false;
-  std::array<uint32_t, 32> pattern = all_ones();  // lowest row first, leftmost pixel in the highest bit
   bool offset_point = false, offset_line = false, offset_fill = false;
   float offset_factor = 0, offset_units = 0;
+};
+
+// A group of its own (GL_POLYGON_STIPPLE_BIT).
+struct PolygonStippleState {
+  std::array<uint32_t, 32> pattern = all_ones();  // lowest row first, leftmost pixel in the highest bit
 
   static constexpr std::array<uint32_t, 32> all_ones() {
     std::array<uint32_t, 32> rows{};

@@ -58,6 +58,7 @@ struct alignas(64) BlockContext {
   uint32_t* depth;        // the block's 64 pixels
   uint32_t* color;        // rgba8; with a queue, of the tile
   float* color_planes;    // rgba32f
+  const float* coverage;  // of the block's pixels, in [0, 1]; where the program asks for it
   const PixelQueue* queue;  // packed fragments instead of the block's, or unused
 };
 

@@ -19,6 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/blend.inl"
 #include "raster/fragment/stages/color.inl"
 #include "raster/fragment/stages/coord.inl"
+#include "raster/fragment/stages/coverage.inl"
 #include "raster/fragment/stages/depth.inl"
 #include "raster/fragment/stages/env.inl"
 #include "raster/fragment/stages/lambda.inl"

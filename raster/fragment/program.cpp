@@ -188,6 +188,7 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
     else
       list.add(color_stage(state, layout, variant));
   }
+  if (layout.coverage && (writes_color(state) || alpha_test)) list.add(StageId::coverage);
   if (alpha_test) {
     list.add(StageId::alpha_test);
     if (depth) list.add(depth_stage(state.depth));
@@ -219,7 +220,7 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
   const bool depth = needs_depth(state.depth);
   program.depth = state.depth;
   program.depth.test = depth;
-  program.packs = !needs_alpha_test(state.alpha_test) && !program.both_planes;
+  program.packs = !needs_alpha_test(state.alpha_test) && !program.both_planes && !state.polygon.stipple;
   for (unsigned variant = 0; variant <= kAffine; ++variant) {
     const StageList list = list_stages(state, layout, format, variant);
     program.packs = program.packs && cover(list, depth ? 1 : 0, list.count, fuse, &KernelPair::packed,

@@ -1,6 +1,8 @@
 #include "raster/primitive/assembly.h"
 
 #include "raster/primitive/clip.h"
+#include "raster/primitive/patterns.h"
+#include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/window_box.h"
 
 namespace halfspace::raster {
@@ -30,44 +32,6 @@ uint32_t primitive_count(Primitive mode, uint32_t n) {
 }
 
 namespace {
-
-struct Corners {
-  uint32_t v[3];  // places in the draw's list of vertices
-};
-
-// Which places of the list make primitive k, and which corner provokes (spec table 2.12: the last vertex of
-// the primitive, but a polygon's first). Quads are split along the diagonal that ends in their last vertex.
-struct ListTriangles {
-  static constexpr uint8_t kProvoking = 2;
-  static Corners at(uint32_t k) { return {{3 * k, 3 * k + 1, 3 * k + 2}}; }
-};
-struct StripTriangles {
-  static constexpr uint8_t kProvoking = 2;
-  static Corners at(uint32_t k) { return {{k + (k & 1), k + 1 - (k & 1), k + 2}}; }
-};
-struct FanTriangles {
-  static constexpr uint8_t kProvoking = 2;
-  static Corners at(uint32_t k) { return {{0, k + 1, k + 2}}; }
-};
-struct PolygonTriangles {
-  static constexpr uint8_t kProvoking = 0;
-  static Corners at(uint32_t k) { return {{0, k + 1, k + 2}}; }
-};
-struct QuadTriangles {
-  static constexpr uint8_t kProvoking = 2;
-  static Corners at(uint32_t k) {
-    const uint32_t q = k / 2 * 4;
-    return k & 1 ? Corners{{q + 1, q + 2, q + 3}} : Corners{{q, q + 1, q + 3}};
-  }
-};
-// Quad i has the corners 2i, 2i + 1, 2i + 3, 2i + 2 in turn.
-struct QuadStripTriangles {
-  static constexpr uint8_t kProvoking = 2;
-  static Corners at(uint32_t k) {
-    const uint32_t q = k / 2 * 2;
-    return k & 1 ? Corners{{q, q + 1, q + 3}} : Corners{{q + 2, q, q + 3}};
-  }
-};
 
 class Assembler {
  public:
@@ -254,6 +218,7 @@ void start_draw(const DrawRecord& draw, Segment& segment) {
 void assemble(const DrawRecord& draw, Primitive mode, const uint32_t* indices, uint32_t index_count,
               uint32_t first, uint32_t count, Segment& segment) {
   start_draw(draw, segment);
+  if (draw.shape.general) return assemble_shapes(draw, mode, indices, index_count, first, count, segment);
   if (draw.bounds.empty()) return;
   Assembler assembler(draw, indices, index_count, segment);
   switch (mode) {

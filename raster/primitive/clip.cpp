@@ -22,8 +22,16 @@ namespace {
 
 struct Corner {
   ClipVertex clip;
-  int64_t original;  // the vertex it is, or -1 when it was made by a cut
+  int64_t original;             // the vertex it is, or -1 when it was made by a cut
+  double user[kMaxClipPlanes];  // distances from the user planes, where there are any
 };
+
+Corner crossing_corner(const Corner& in, double d_in, const Corner& out, double d_out, bool has_user) {
+  Corner made{crossing(in.clip, d_in, out.clip, d_out), -1, {}};
+  if (!has_user) return made;
+  for (int i = 0; i < kMaxClipPlanes; ++i) made.user[i] = crossing(in.user[i], d_in, out.user[i], d_out);
+  return made;
+}
 
 struct CornerList {
   Corner v[kMaxPolygonVertices];
@@ -34,16 +42,18 @@ struct CornerList {
 };
 
 // Sutherland and Hodgman's step: what of the polygon lies inside one plane.
-void cut_polygon(const ClipPlane& plane, const CornerList& in, CornerList& out) {
+// distance(corner) >= 0 is inside.
+template <class Distance>
+void cut_polygon(Distance distance, bool has_user, const CornerList& in, CornerList& out) {
   out.count = 0;
   if (in.count == 0) return;
   const Corner* previous = &in.v[in.count - 1];
-  double d_previous = distance(plane, previous->clip);
+  double d_previous = distance(*previous);
   for (int i = 0; i < in.count; ++i) {
     const Corner* current = &in.v[i];
-    const double d = distance(plane, current->clip);
-    if (d >= 0 && d_previous < 0) out.push({crossing(current->clip, d, previous->clip, d_previous), -1});
-    if (d < 0 && d_previous >= 0) out.push({crossing(previous->clip, d_previous, current->clip, d), -1});
+    const double d = distance(*current);
+    if (d >= 0 && d_previous < 0) out.push(crossing_corner(*current, d, *previous, d_previous, has_user));
+    if (d < 0 && d_previous >= 0) out.push(crossing_corner(*previous, d_previous, *current, d, has_user));
     if (d >= 0) out.push(*current);
     previous = current;
     d_previous = d;
@@ -128,12 +138,23 @@ void Clipper::clip_triangle(const uint32_t v[3], unsigned outcodes, Polygon& out
   ClipPlane planes[kClipPlanes];
   make_clip_planes(window_, planes);
   CornerList lists[2];
-  for (int i = 0; i < 3; ++i) lists[0].push({draw_.vertices.clip[v[i]], int64_t{v[i]}});
+  const bool has_user = outcodes >= user_outcode(0);
+  for (int i = 0; i < 3; ++i) {
+    Corner corner{draw_.vertices.clip[v[i]], int64_t{v[i]}, {}};
+    if (has_user)
+      std::copy_n(draw_.clip_distances + size_t{v[i]} * kMaxClipPlanes, kMaxClipPlanes, corner.user);
+    lists[0].push(corner);
+  }
   int current = 0;
-  for (const ClipPlane& plane : planes) {
-    if (!(outcodes & plane.outcode)) continue;
-    cut_polygon(plane, lists[current], lists[1 - current]);
+  const auto cut = [&](auto distance) {
+    cut_polygon(distance, has_user, lists[current], lists[1 - current]);
     current = 1 - current;
+  };
+  for (int i = 0; has_user && i < kMaxClipPlanes; ++i) {
+    if (outcodes & user_outcode(i)) cut([i](const Corner& c) { return c.user[i]; });
+  }
+  for (const ClipPlane& plane : planes) {
+    if (outcodes & plane.outcode) cut([&plane](const Corner& c) { return distance(plane, c.clip); });
   }
   const CornerList& left = lists[current];
   Point p[kMaxPolygonVertices];

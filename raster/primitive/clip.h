@@ -7,8 +7,11 @@
 
 namespace halfspace::raster {
 
-// A triangle adds at most one corner for each of the seven planes.
-inline constexpr int kMaxPolygonVertices = 10;
+// A triangle gets at most one corner more from each of the seven planes and the user's.
+inline constexpr int kMaxPolygonVertices = 10 + kMaxClipPlanes;
+
+// Bit of user plane i in the codes the clipper takes, beside the vertex stage's outcodes.
+constexpr unsigned user_outcode(int i) { return 0x10000u << i; }
 
 // Clips one draw's primitives. Holds what does not change over a draw.
 class Clipper {
@@ -22,7 +25,7 @@ class Clipper {
     int32_t y[kMaxPolygonVertices];  // other way than the whole
   };
 
-  // Cuts the triangle of vertices v[0..2]; `outcodes` is the union of theirs.
+  // Cuts the triangle of vertices v[0..2]; `outcodes` is the union of theirs, user planes included.
   void clip_triangle(const uint32_t v[3], unsigned outcodes, Polygon& out) const;
   // Its planes, relative to the polygon's lowest corner (then leftmost). False: the triangle has no usable
   // plane.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raster/api/draw_packet.h"
+#include "raster/primitive/shape_plan.h"
 #include "raster/vertex/shaded_vertices.h"
 
 namespace halfspace::raster {
@@ -28,16 +29,19 @@ struct PlaneSource {
   Plane planes[kMaxPlanes];
 };
 
-// A triangle of a cut polygon: its own corners, the planes of its source.
+// A triangle of a cut polygon: its own corners, the planes of its source. Lines have two corners, points one.
 struct CutTriangle {
   int32_t x[3], y[3];  // 16.8, counter-clockwise or clockwise as the source was
   uint32_t source;     // index of its PlaneSource
 };
 
-enum class PrimitiveKind : uint8_t { triangle, line, point };
+// A smooth triangle makes a fragment wherever it touches a pixel.
+enum class PrimitiveKind : uint8_t { triangle, smooth_triangle, line, point };
 
 struct PrimitiveRef {
-  uint32_t v[3];          // vertices of the draw, in submission order; cut triangle: v[0] indexes cut_triangles
+  // Vertices of the draw, in submission order; the edge of a polygon has the polygon's provoking vertex last. Cut:
+  // v[0] indexes cut_triangles, and of a stippled line v[1] is where its stipple starts.
+  uint32_t v[3];
   PrimitiveKind kind;
   bool cut;
   bool back_facing;
@@ -52,7 +56,15 @@ struct DrawRecord {
   std::shared_ptr<const DrawState> state;
   ShadedVertices vertices;
   Rect bounds;  // framebuffer cut by scissor and viewport; fragments outside are never made
+  Rect window;  // framebuffer cut by scissor: where points and lines may reach that are wider than a pixel
   const PipelineProgram* program = nullptr;  // what its fragments go through
+  ShapePlan shape;
+  // Until the draw is assembled: signed distances from the user clip planes, kMaxClipPlanes a vertex, and which of the
+  // planes in use the vertex lies outside of (null: none is in use); the batch's edge flags.
+  const double* clip_distances = nullptr;
+  const uint8_t* clip_codes = nullptr;
+  const uint8_t* edge_flags = nullptr;
+  uint32_t stipple_start = 0;  // where the first line's stipple starts
 };
 
 // Primitives of one stretch of the command stream, in order, with their bins. Filled by one thread at a time.
@@ -69,6 +81,7 @@ struct Segment {
   std::vector<std::vector<uint32_t>> bins;  // tiles_x * tiles_y, row by row from the bottom
   std::vector<uint32_t> touched;            // tiles whose bin is not empty
   int tiles_x = 0, tiles_y = 0;
+  uint32_t stipple_end = 0;  // where the stipple of a line strip stands after the last draw
   uint64_t triangles_in = 0, culled = 0, clipped = 0;  // statistics
 
   void reset(int new_tiles_x, int new_tiles_y) {

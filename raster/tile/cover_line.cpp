@@ -1,4 +1,4 @@
-// Lines and points of size 1, exact in integers.
+// Lines and points, exact in integers.
 #include <algorithm>
 #include <cstdlib>
 
@@ -68,54 +68,106 @@ void set_pixel(TileCoverage& out, int x, int y) {
   out.blocks[block] |= uint64_t{1} << (y % kBlockSize * kBlockSize + x % kBlockSize);
 }
 
-// One more pixel than a coordinate range holds on either side: a diamond there may still be met.
-struct Span {
-  int first, last;
+// A line with its longer axis called u and the other one v.
+struct AxisLine {
+  Line line;
+  bool steep;
+  int64_t u0, v0, du, dv;
+
+  AxisLine(const LineEnds& e, int width) {
+    steep = std::abs(int64_t{e.y1} - e.y0) > std::abs(int64_t{e.x1} - e.x0);
+    const int64_t shift = int64_t{width - 1} * kHalf;
+    line = {e.x0 - (steep ? shift : 0), e.y0 - (steep ? 0 : shift), int64_t{e.x1} - e.x0,
+            int64_t{e.y1} - e.y0};
+    du = steep ? line.dy : line.dx, dv = steep ? line.dx : line.dy;
+    u0 = steep ? line.y0 : line.x0, v0 = steep ? line.x0 : line.y0;
+  }
+
+  // Finds the fragment of column u: it is at *v. In each column the line passes within half a pixel of one
+  // centre, or of two when it runs exactly between them.
+  bool fragment(int64_t u, int64_t* v) const {
+    // v at the column's centre, times |du|: below 2^49.
+    const int64_t at = u * kSubpixelScale + kHalf - u0;
+    const int64_t scaled = v0 * std::abs(du) + (du < 0 ? -dv : dv) * at;
+    const int64_t pitch = std::abs(du) * kSubpixelScale;
+    *v = floor_div(scaled, pitch);
+    if (*v * pitch == scaled && makes_fragment(u, *v - 1))
+      --*v;
+    else if (!makes_fragment(u, *v))
+      return false;
+    return true;
+  }
+
+  // A column more than the line's own on either side: a diamond there may still be met.
+  int64_t first_column() const { return (std::min(u0, u0 + du) >> kSubpixelBits) - 1; }
+  int64_t last_column() const { return (std::max(u0, u0 + du) >> kSubpixelBits) + 1; }
+
+ private:
+  bool makes_fragment(int64_t u, int64_t v) const {
+    return steep ? line.makes_fragment(v, u) : line.makes_fragment(u, v);
+  }
 };
-Span pixels_met(int64_t from, int64_t to, int low, int high) {
-  const int64_t first = (std::min(from, to) >> kSubpixelBits) - 1,
-                last = (std::max(from, to) >> kSubpixelBits) + 1;
-  return {int(std::max<int64_t>(first, low)), int(std::min<int64_t>(last, high - 1))};
+
+bool passes(const LineStipple& stipple, uint32_t index) {
+  const uint32_t s = (stipple.start + index) / uint32_t(stipple.repeat);
+  return stipple.pattern >> (s % 16) & 1;
 }
 
 }  // namespace
 
-void cover_line(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int tile_x, int tile_y, const Rect& bounds,
-                TileCoverage& out) {
-  out.touched = 0;
-  const Line line{x0, y0, int64_t{x1} - x0, int64_t{y1} - y0};
-  const Rect area = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
-  if (area.empty() || (line.dx == 0 && line.dy == 0)) return;
+LineRun line_run(const LineEnds& ends, int width) {
+  const AxisLine axis(ends, width);
+  if (axis.du == 0) return {0, 0};
+  int64_t low = axis.first_column(), high = axis.last_column(), v;
+  while (low <= high && !axis.fragment(low, &v)) ++low;
+  while (high > low && !axis.fragment(high, &v)) --high;
+  if (low > high) return {0, 0};
+  return {int(axis.du > 0 ? low : high), uint32_t(high - low + 1)};
+}
 
-  // Walk the longer direction, `u`. In each column the line passes within half a pixel of one centre, or of
-  // two when it runs exactly between them.
-  const bool steep = std::abs(line.dy) > std::abs(line.dx);
-  const int64_t du = steep ? line.dy : line.dx, dv = steep ? line.dx : line.dy;
-  const int64_t u0 = steep ? line.y0 : line.x0, v0 = steep ? line.x0 : line.y0;
-  const int u_low = steep ? area.y0 : area.x0, u_high = steep ? area.y1 : area.x1;
+void cover_line(const LineEnds& ends, int width, const LineStipple& stipple, int tile_x, int tile_y,
+                const Rect& bounds, const Rect& middle, TileCoverage& out) {
+  out.touched = 0;
+  const AxisLine axis(ends, width);
+  const Rect area = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
+  if (area.empty() || axis.du == 0) return;
+  const LineRun run = stipple.on ? line_run(ends, width) : LineRun{0, 0};
+  const bool steep = axis.steep;
+  const int u_low = std::max(steep ? area.y0 : area.x0, steep ? middle.y0 : middle.x0);
+  const int u_high = std::min(steep ? area.y1 : area.x1, steep ? middle.y1 : middle.x1);
   const int v_low = steep ? area.x0 : area.y0, v_high = steep ? area.x1 : area.y1;
-  const Span span = pixels_met(u0, u0 + du, u_low, u_high);
-  for (int u = span.first; u <= span.last; ++u) {
-    // v at the column's centre, times |du|: below 2^49.
-    const int64_t at = int64_t{u} * kSubpixelScale + kHalf - u0;
-    const int64_t scaled = v0 * std::abs(du) + (du < 0 ? -dv : dv) * at;
-    const int64_t pitch = std::abs(du) * kSubpixelScale;
-    const int64_t v = floor_div(scaled, pitch);
-    const bool between = v * pitch == scaled;
-    for (int64_t candidate = v - between; candidate <= v; ++candidate) {
-      if (candidate < v_low || candidate >= v_high) continue;
-      const int c = int(candidate), px = steep ? c : u, py = steep ? u : c;
-      if (line.makes_fragment(px, py)) set_pixel(out, px - tile_x, py - tile_y);
+  const int middle_low = steep ? middle.x0 : middle.y0, middle_high = steep ? middle.x1 : middle.y1;
+  const int64_t last = std::min<int64_t>(axis.last_column(), u_high - 1);
+  for (int64_t column = std::max<int64_t>(axis.first_column(), u_low); column <= last; ++column) {
+    int64_t v;
+    if (!axis.fragment(column, &v)) continue;
+    const int64_t center = v + (width - 1) / 2;
+    if (center < middle_low || center >= middle_high) continue;
+    const int u = int(column);
+    if (stipple.on && !passes(stipple, uint32_t(std::abs(u - run.first)))) continue;
+    const int64_t end = std::min<int64_t>(v + width, v_high);
+    for (int64_t row = std::max<int64_t>(v, v_low); row < end; ++row) {
+      const int w = int(row);
+      set_pixel(out, (steep ? w : u) - tile_x, (steep ? u : w) - tile_y);
     }
   }
 }
 
-void cover_point(int32_t x, int32_t y, int tile_x, int tile_y, const Rect& bounds, TileCoverage& out) {
+Rect point_square(int32_t x, int32_t y, int size) {
+  const int32_t even = size % 2 == 0 ? kSubpixelScale / 2 : 0;
+  const int left = ((x + even) >> kSubpixelBits) - size / 2,
+            bottom = ((y + even) >> kSubpixelBits) - size / 2;
+  return {left, bottom, left + size, bottom + size};
+}
+
+void cover_point(int32_t x, int32_t y, int size, int tile_x, int tile_y, const Rect& bounds,
+                 TileCoverage& out) {
   out.touched = 0;
-  const int px = x >> kSubpixelBits, py = y >> kSubpixelBits;
-  const Rect area = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
-  if (px < area.x0 || px >= area.x1 || py < area.y0 || py >= area.y1) return;
-  set_pixel(out, px - tile_x, py - tile_y);
+  const Rect tile = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
+  const Rect area = intersect(point_square(x, y, size), tile);
+  for (int py = area.y0; py < area.y1; ++py) {
+    for (int px = area.x0; px < area.x1; ++px) set_pixel(out, px - tile_x, py - tile_y);
+  }
 }
 
 }  // namespace halfspace::raster

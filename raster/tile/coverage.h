@@ -14,13 +14,40 @@ struct TileCoverage {
   uint64_t touched;  // bit b: blocks[b] may be non-zero; the others are not initialised
 };
 
-// A line from (x0, y0) to (x1, y1), 16.8 window coordinates, width 1, by the diamond-exit rule (spec 3.4.1): a
-// fragment for each diamond the segment leaves; the end point's own diamond makes none. Half-open, so a strip
-// draws each vertex once. (tile_x, tile_y): the tile's lowest pixel; only pixels of `bounds` are made.
-void cover_line(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int tile_x, int tile_y, const Rect& bounds,
-                TileCoverage& out);
+// Two ends in 16.8 window coordinates.
+struct LineEnds {
+  int32_t x0, y0, x1, y1;
+};
 
-// A point of size 1 (spec 3.3): the pixel that contains it.
-void cover_point(int32_t x, int32_t y, int tile_x, int tile_y, const Rect& bounds, TileCoverage& out);
+// Where along a line there are fragments (spec 3.4.2, 3.4.2.2): bit s / repeat % 16 of the pattern, s
+// counting fragments from `start` on; for smooth lines s is 256ths of a pixel's length of the line.
+struct LineStipple {
+  bool on = false;
+  uint16_t pattern = 0xffff;
+  int repeat = 1;
+  uint32_t start = 0;
+};
+
+// A line by the diamond-exit rule (spec 3.4.1): a fragment for each diamond the segment leaves; the end
+// point's own diamond makes none. Half-open, so a strip draws each vertex once. Wider than 1, it is moved by
+// (width - 1) / 2 along the minor axis, and each fragment becomes `width` of them there. (tile_x, tile_y):
+// the tile's lowest pixel. Only pixels of `bounds` are made, and where the middle of the line lies in
+// `middle`.
+void cover_line(const LineEnds& ends, int width, const LineStipple& stipple, int tile_x, int tile_y,
+                const Rect& bounds, const Rect& middle, TileCoverage& out);
+
+// The fragments of a line (columns of a wide one): how many there are, and the coordinate of the first one
+// along the longer axis; the others follow in the direction of the line.
+struct LineRun {
+  int first;
+  uint32_t count;
+};
+LineRun line_run(const LineEnds& ends, int width);
+
+// The pixels of a point of `size` (spec 3.3): around the middle of the pixel it lies in where that is odd,
+// around the nearest corner of pixels where it is even.
+Rect point_square(int32_t x, int32_t y, int size);
+void cover_point(int32_t x, int32_t y, int size, int tile_x, int tile_y, const Rect& bounds,
+                 TileCoverage& out);
 
 }  // namespace halfspace::raster

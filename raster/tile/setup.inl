@@ -240,6 +240,13 @@ HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, con
   for (int k = 0; k < 4; ++k) out.flat[k][lane] = color_level(color[k], draw.program->params.rounds_to_bytes);
 }
 
+// Moves a filled polygon's depth (spec 3.5.5). Lines and points of polygons bring their offset along.
+HWY_INLINE void OffsetDepth(const PolygonState& polygon, int lane, SetupBatch& out) {
+  const double gx = out.dfdx[0][lane] < 0 ? -out.dfdx[0][lane] : out.dfdx[0][lane];
+  const double gy = out.dfdy[0][lane] < 0 ? -out.dfdy[0][lane] : out.dfdy[0][lane];
+  out.f0[0][lane] += depth_offset(polygon, gx > gy ? gx : gy);
+}
+
 // Fills `out` for the primitives ids[0 .. count) of `segment`, all of one draw. `limit`: the draw's bounds relative to
 // the tile whose lowest pixel is (tile_x, tile_y).
 void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, int count, int tile_x, int tile_y,
@@ -274,10 +281,12 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
     SetPlanes(in, layout, params, v, i, out);
   }
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
-  if (!any_cut && !flat) return;
+  const bool offset = draw.shape.offset_fill;
+  if (!any_cut && !flat && !offset) return;
   for (int lane = 0; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
     if (ref.cut) CopyPlanes(segment, segment.cut_triangles.data()[ref.v[0]], layout, lane, center_x, center_y, out);
     if (flat) SetFlatColor(segment, draw, ref, lane, out);
+    if (offset && ref.kind <= PrimitiveKind::smooth_triangle) OffsetDepth(draw.state->polygon, lane, out);
   }
 }

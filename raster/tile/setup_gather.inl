@@ -34,7 +34,7 @@ HWY_INLINE void OrderCorners(const VertexHead* v[3]) {
 // A point gets two such corners.
 HWY_INLINE void FindCorners(const Segment& segment, const ShadedVertices& vertices, size_t stride,
                             const PrimitiveRef& ref, VertexHead made[3], const VertexHead* v[3]) {
-  const int given = ref.kind == PrimitiveKind::triangle ? 3 : (ref.kind == PrimitiveKind::line ? 2 : 1);
+  const int given = ref.kind <= PrimitiveKind::smooth_triangle ? 3 : (ref.kind == PrimitiveKind::line ? 2 : 1);
   for (int k = 0; k < given; ++k) {
     if (ref.cut) {
       const CutTriangle& cut = segment.cut_triangles.data()[ref.v[0]];

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "raster/isa.h"
+#include "raster/tile/cover_smooth.h"
 #include "raster/tile/coverage.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -28,7 +29,9 @@ struct TileContext {
   int x, y;  // lowest pixel
   const PipelineProgram* program = nullptr;
   Rect limit;          // the draw's bounds relative to the tile, within it
-  bool limit_is_tile;
+  bool masks_blocks;   // the limit is not the whole tile, or polygons are stippled
+  bool stippled;
+  uint64_t stipple[16];  // pixels of the blocks (y % 4) * 4 + x % 4
   int plane_count;
   bool flat_color;
   TileStatistics* statistics;
@@ -48,7 +51,8 @@ HWY_INLINE double BlockDepth(const SetupBatch& s, int lane, double dx, double dy
 
 // Coarse z, rounded away from the decision: a block is dropped only if every pixel would fail.
 HWY_INLINE bool BlockIsHidden(const TileContext& t, int lane, int block) {
-  const double least = BlockDepth(t.setup, lane, t.block.dx, t.block.dy, -1);
+  double least = BlockDepth(t.setup, lane, t.block.dx, t.block.dy, -1);
+  if (least > kDepthScale) least = kDepthScale;  // an offset may take it beyond; fragments are held to the range
   return least - 1.0 > static_cast<double>(t.state->depth_max[block]) + 1.0;
 }
 
@@ -117,6 +121,11 @@ HWY_INLINE uint64_t LimitMask(const Rect& limit, int block) {
       if (x + column >= limit.x0 && x + column < limit.x1) mask |= uint64_t{1} << (row * kBlockSize + column);
   }
   return mask;
+}
+
+HWY_INLINE uint64_t BlockMask(const TileContext& t, int block) {
+  const uint64_t mask = LimitMask(t.limit, block);
+  return t.stippled ? mask & t.stipple[block / 8 % 4 * 4 + block % 4] : mask;
 }
 
 // Shades what waits. Anything that draws otherwise does this first, so that order is kept.
@@ -196,7 +205,7 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
   for (int by = s.min_y[lane] / kBlockSize; by <= s.max_y[lane] / kBlockSize; ++by) {
     for (int bx = s.min_x[lane] / kBlockSize; bx <= s.max_x[lane] / kBlockSize; ++bx) {
       uint64_t mask = walk.Coverage(bx * kBlockSize, by * kBlockSize, s.min_y[lane], s.max_y[lane]);
-      if (!t.limit_is_tile && mask != 0) mask &= LimitMask(t.limit, by * 8 + bx);
+      if (t.masks_blocks && mask != 0) mask &= BlockMask(t, by * 8 + bx);
       if (mask != 0) WalkBlock(t, lane, by * 8 + bx, mask, packs);
     }
   }
@@ -211,38 +220,16 @@ void RunTriangle(TileContext& t, int lane) {
   else WalkTriangle(t, lane, packs);
 }
 
-void RunLineOrPoint(TileContext& t, const PrimitiveRef& ref, const Segment& segment, const DrawRecord& draw,
-                    int lane) {
-  FlushPacked(t);
-  TileCoverage coverage;
-  const size_t stride = draw.vertices.layout.stride();
-  int32_t x[2], y[2];
-  for (int k = 0; k < 2; ++k) {
-    if (ref.cut) {
-      x[k] = segment.cut_triangles.data()[ref.v[0]].x[k];
-      y[k] = segment.cut_triangles.data()[ref.v[0]].y[k];
-    } else {
-      const VertexHead* head = Head(draw.vertices, stride, ref.v[ref.kind == PrimitiveKind::line ? k : 0]);
-      x[k] = head->x;
-      y[k] = head->y;
-    }
-  }
-  if (ref.kind == PrimitiveKind::line)
-    cover_line(x[0], y[0], x[1], y[1], t.x, t.y, draw.bounds, coverage);
-  else
-    cover_point(x[0], y[0], t.x, t.y, draw.bounds, coverage);
-  for (uint64_t todo = coverage.touched; todo != 0; todo &= todo - 1) {
-    const int block = __builtin_ctzll(todo);
-    if (coverage.blocks[block] != 0) RunBlock(t, lane, block, coverage.blocks[block]);
-  }
-}
+#include "raster/tile/shapes.inl"
 
 void SelectDraw(TileContext& t, const DrawRecord& draw) {
   if (t.program != draw.program) FlushPacked(t);
   const Rect tile{t.x, t.y, t.x + kTileSize, t.y + kTileSize};
   const Rect cut = intersect(tile, draw.bounds);
   t.limit = {cut.x0 - t.x, cut.y0 - t.y, cut.x1 - t.x, cut.y1 - t.y};
-  t.limit_is_tile = cut == tile;
+  t.stippled = draw.state->polygon.stipple;
+  t.masks_blocks = cut != tile || t.stippled;
+  if (t.stippled) SetStipple(t, draw.state->polygon);
   t.program = draw.program;
   t.block.params = &draw.program->params;
   t.plane_count = 2 + draw.vertices.layout.attribute_count;
@@ -270,7 +257,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
       for (int lane = 0; lane < count; ++lane) {
         const PrimitiveRef& ref = segment.primitives.data()[ids[at + static_cast<size_t>(lane)]];
         if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
-        else RunLineOrPoint(t, ref, segment, record, lane);
+        else RunShape(t, ref, segment, record, lane);
       }
       at = next;
     }
@@ -279,6 +266,8 @@ void RunSegment(TileContext& t, const Segment& segment) {
 
 void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile,
              TileStatistics& statistics) {
+  alignas(64) float whole[kBlockPixels];
+  for (float& c : whole) c = 1;
   TileContext t;
   t.input = {};  // lanes beyond a batch's count are computed with, though never used
   t.framebuffer = &framebuffer;
@@ -288,6 +277,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.y = static_cast<int>(tile / static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
   t.statistics = &statistics;
   t.block.setup = &t.setup;
+  t.block.coverage = whole;
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
   FlushPacked(t);
 }

@@ -35,6 +35,7 @@ struct VertexLayout {
   int fog = -1;            // 1 float: distance from the eye, |z_e|
   // Behind the attributes, and none of them: 4 floats, which back-facing polygons have in place of `color`.
   int back_color = -1;
+  bool coverage = false;   // fragments may cover their pixel in part: points, lines or polygons are smooth
   Color constant_color{1, 1, 1, 1};  // used (already clamped) when color == -1
   size_t stride() const { return sizeof(VertexHead) + ((size_t(float_count()) * 4 + 7) & ~size_t{7}); }
   // Which float is attribute `a`, on a front- or back-facing polygon.

@@ -139,7 +139,7 @@ void derive_shapes(const Context& context, DrawState& out) {
                  polygon_mode_of(p.mode[1]),
                  p.smooth,
                  p.stipple,
-                 p.pattern,
+                 context.polygon_stipple.pattern,
                  p.offset_fill,
                  p.offset_line,
                  p.offset_point,

@@ -52,7 +52,7 @@ struct Oracle {
 
 Pixels covered(int x0, int y0, int x1, int y1, int tile_x, int tile_y, const Rect& bounds) {
   TileCoverage coverage;
-  cover_line(x0, y0, x1, y1, tile_x, tile_y, bounds, coverage);
+  cover_line({x0, y0, x1, y1}, 1, {}, tile_x, tile_y, bounds, bounds, coverage);
   Pixels pixels;
   for (int b = 0; b < 64; ++b) {
     if (!(coverage.touched >> b & 1)) continue;
@@ -178,7 +178,7 @@ TEST(DiamondExit, TilesAndBoundsOnlyCut) {
 TEST(SmallPoint, TakesThePixelThatHoldsIt) {
   for (int x = 63 * 256; x <= 65 * 256; ++x) {
     TileCoverage coverage;
-    cover_point(x, 10 * 256 + 255, 64, 0, {0, 0, 1000, 1000}, coverage);
+    cover_point(x, 10 * 256 + 255, 1, 64, 0, {0, 0, 1000, 1000}, coverage);
     if (x < 64 * 256) {
       ASSERT_EQ(coverage.touched, 0u) << x;
       continue;
