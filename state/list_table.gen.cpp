@@ -82,7 +82,7 @@ void tex_gen(Context& context, GLenum coord, GLenum pname, const GLdouble* param
   Compiled<&OperationTable::tex_gen>::execute(context, coord, pname, params);
 }
 
-void polygon_stipple(Context& context, const GLubyte* mask) {
+void polygon_stipple(Context& context, const GLvoid* mask) {
   compiling(context, [&] { Compiled<&OperationTable::polygon_stipple>::record_image(context, keep_image(context, 32, 32, GL_COLOR_INDEX, GL_BITMAP, mask)); });
   Compiled<&OperationTable::polygon_stipple>::execute(context, mask);
 }

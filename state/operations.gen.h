@@ -100,7 +100,7 @@ struct OperationTable {
   void (*front_face)(Context&, GLenum mode);
   void (*polygon_mode)(Context&, GLenum face, GLenum mode);
   void (*polygon_offset)(Context&, GLfloat factor, GLfloat units);
-  void (*polygon_stipple)(Context&, const GLubyte* mask);
+  void (*polygon_stipple)(Context&, const GLvoid* mask);
   void (*get_polygon_stipple)(Context&, GLubyte* mask);
   void (*point_size)(Context&, GLfloat size);
   void (*line_width)(Context&, GLfloat width);
@@ -252,7 +252,7 @@ void cull_face(Context&, GLenum mode);
 void front_face(Context&, GLenum mode);
 void polygon_mode(Context&, GLenum face, GLenum mode);
 void polygon_offset(Context&, GLfloat factor, GLfloat units);
-void polygon_stipple(Context&, const GLubyte* mask);
+void polygon_stipple(Context&, const GLvoid* mask);
 void get_polygon_stipple(Context&, GLubyte* mask);
 void point_size(Context&, GLfloat size);
 void line_width(Context&, GLfloat width);

@@ -62,13 +62,14 @@ void polygon_offset(Context& context, GLfloat factor, GLfloat units) {
   mark_dirty(context, kDirtyRaster);
 }
 
-void polygon_stipple(Context& context, const GLubyte* mask) {
+void polygon_stipple(Context& context, const GLvoid* mask) {
   if (!mask) return;
   const StippleLayout layout(context.pixel_store.unpack);
+  const auto* bytes = static_cast<const GLubyte*>(mask);
   for (size_t y = 0; y < 32; ++y) {
     uint32_t row = 0;
     for (unsigned x = 0; x < 32; ++x) {
-      if (mask[layout.byte(x, y)] & layout.mask(x)) row |= 0x80000000u >> x;
+      if (bytes[layout.byte(x, y)] & layout.mask(x)) row |= 0x80000000u >> x;
     }
     context.polygon_stipple.pattern[y] = row;
   }
