@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "raster/api/texture.h"
+#include "raster/surface/page_buffer.h"
 
 namespace halfspace::raster {
 
@@ -39,7 +40,9 @@ struct TextureLevel {
   uint32_t texel(int i, int j) const { return base[ptrdiff_t(j + 1) * pitch + (i + 1)]; }
 
   // The rest belongs to raster/texture/texture.cpp.
+  uint32_t* texels = nullptr;  // `base`, in one of the two
   std::unique_ptr<uint32_t[], AlignedDelete> storage;
+  PageBuffer pages;  // large images that start as zeros: no page of them exists before it is written
   int border = 0;
   BaseFormat base_format = BaseFormat::rgba;
   std::vector<uint32_t>

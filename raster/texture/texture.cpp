@@ -52,24 +52,46 @@ uint32_t border_texel_of(const Color& color, BaseFormat format) {
 
 size_t storage_texels(int width, int height) { return size_t(width + 2) * size_t(height + 2) + 1; }
 
-std::shared_ptr<TextureLevel> allocate_level(int width, int height, int border, BaseFormat format) {
+// Without their texels.
+std::shared_ptr<TextureLevel> shape_level(int width, int height, int border, BaseFormat format) {
   auto level = std::make_shared<TextureLevel>();
   level->width = width;
   level->height = height;
   level->pitch = width + 2;
   level->border = border;
   level->base_format = format;
-  const size_t bytes = storage_texels(width, height) * sizeof(uint32_t);
-  level->storage.reset(static_cast<uint32_t*>(::operator new[](bytes, std::align_val_t{64})));
-  level->base = level->storage.get();
-  level->storage[bytes / sizeof(uint32_t) - 1] = 0;  // the padding: loaded, never weighed in
   if (border) level->border_texels.resize(size_t(width + 2) * 2 + size_t(height) * 2);
+  return level;
+}
+
+std::shared_ptr<TextureLevel> allocate_level(int width, int height, int border, BaseFormat format) {
+  auto level = shape_level(width, height, border, format);
+  const size_t count = storage_texels(width, height);
+  level->storage.reset(static_cast<uint32_t*>(::operator new[](count * sizeof(uint32_t), std::align_val_t{64})));
+  level->base = level->texels = level->storage.get();
+  level->texels[count - 1] = 0;  // the padding: loaded, never weighed in
+  return level;
+}
+
+// All texels zero. From a few megabytes on, pages that nobody writes are never made: a program that asks for the
+// largest texture there is and fills a corner of it gets it at once.
+std::shared_ptr<TextureLevel> allocate_zeros(int width, int height, int border, BaseFormat format) {
+  constexpr size_t kLarge = size_t{4} << 20;
+  const size_t bytes = storage_texels(width, height) * sizeof(uint32_t);
+  if (bytes < kLarge) {
+    auto level = allocate_level(width, height, border, format);
+    std::memset(level->texels, 0, bytes);
+    return level;
+  }
+  auto level = shape_level(width, height, border, format);
+  level->pages = PageBuffer(bytes);
+  level->base = level->texels = level->pages.as<uint32_t>();
   return level;
 }
 
 std::shared_ptr<TextureLevel> clone_level(const TextureLevel& from) {
   auto level = allocate_level(from.width, from.height, from.border, from.base_format);
-  std::memcpy(level->storage.get(), from.base, storage_texels(from.width, from.height) * sizeof(uint32_t));
+  std::memcpy(level->texels, from.base, storage_texels(from.width, from.height) * sizeof(uint32_t));
   level->border_texels = from.border_texels;
   level->opaque = from.opaque;
   level->image_opaque = from.image_opaque;
@@ -79,7 +101,7 @@ std::shared_ptr<TextureLevel> clone_level(const TextureLevel& from) {
 }
 
 uint32_t* texel_address(TextureLevel& level, int i, int j) {
-  return level.storage.get() + ptrdiff_t(j + 1) * level.pitch + (i + 1);
+  return level.texels + ptrdiff_t(j + 1) * level.pitch + (i + 1);
 }
 
 bool is_inside(const TextureLevel& level, int i, int j) {
@@ -92,12 +114,6 @@ size_t border_index(const TextureLevel& level, int i, int j) {
   if (j < 0) return size_t(i + 1);
   if (j >= level.height) return row + size_t(i + 1);
   return 2 * row + (i < 0 ? 0 : size_t(level.height)) + size_t(j);
-}
-
-void zero_texels(TextureLevel& level) {
-  level.image_opaque = false;
-  std::memset(level.storage.get(), 0, storage_texels(level.width, level.height) * sizeof(uint32_t));
-  std::fill(level.border_texels.begin(), level.border_texels.end(), 0u);
 }
 
 // Copies a row of packed bytes over texels [x, x + w) of row y, border texels included.
@@ -214,18 +230,18 @@ void Texture::define_level(int level, int width, int height, int border, BaseFor
   if (width <= 0 || height <= 0) return remove_level(level);
   std::shared_ptr<TextureLevel>& slot = impl_->levels[size_t(level)];
   impl_->cached_view.reset();
+  if (!rows) {
+    slot = allocate_zeros(width, height, border, base_format);
+    return;
+  }
   const bool reuse =
       slot && Impl::is_sole(slot) && slot->width == width && slot->height == height && slot->border == border;
   std::shared_ptr<TextureLevel> fresh = reuse ? slot : allocate_level(width, height, border, base_format);
   fresh->base_format = base_format;
   fresh->skirt_valid = false;
   fresh->image_opaque = true;
-  if (!rows) {
-    zero_texels(*fresh);
-  } else {
-    for (int y = -border; y < height + border; ++y) {
-      write_row(*fresh, -border, y, width + 2 * border, rows(y + border));
-    }
+  for (int y = -border; y < height + border; ++y) {
+    write_row(*fresh, -border, y, width + 2 * border, rows(y + border));
   }
   slot = std::move(fresh);
 }
