@@ -5,6 +5,8 @@
 #include "state/context.h"
 #include "state/operations.gen.h"
 #include "state/out_of_memory.h"
+#include "state/pixel_transfer.h"
+#include "state/pixel_value.h"
 #include "state/texture_format.h"
 #include "state/texture_image.h"
 
@@ -36,9 +38,11 @@ class BufferRows {
     if (found_.empty()) return;
     pixels_.resize(found_width() * size_t(found_.y1 - found_.y0) * 4);
     context.device.begin_pass(buffer);
-    context.device.read_color(found_, pixels_.data());
-    if (context.visual.alpha_bits == 0) {  // reads as 1
-      for (size_t i = 3; i < pixels_.size(); i += 4) pixels_[i] = 255;
+    if (transfers_colors(context)) {
+      read_transferred(context);
+    } else {
+      context.device.read_color(found_, pixels_.data());
+      if (context.visual.alpha_bits == 0) set_alpha(pixels_, uint8_t{255});  // reads as 1
     }
     reduce_to_base(base, pixels_.data(), pixels_.size() / 4);
   }
@@ -58,6 +62,17 @@ class BufferRows {
   }
 
  private:
+  template <class T>
+  static void set_alpha(std::vector<T>& rgba, T one) {
+    for (size_t i = 3; i < rgba.size(); i += 4) rgba[i] = one;
+  }
+  void read_transferred(Context& context) {
+    std::vector<float> colors(pixels_.size());
+    context.device.read_color_float(found_, colors.data());
+    if (context.visual.alpha_bits == 0) set_alpha(colors, 1.0f);
+    transfer_colors(context, colors.data(), colors.size() / 4);
+    std::transform(colors.begin(), colors.end(), pixels_.begin(), [](float c) { return to_byte(c); });
+  }
   size_t found_width() const { return size_t(found_.x1 - found_.x0); }
   const uint8_t* missing_row() {
     std::fill(row_.begin(), row_.end(), uint8_t{0});

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <vector>
 
+#include "raster/texture/level.h"
 #include "tests/unit/pixel_fixture.h"
 #include "tests/unit/pixel_model.h"
 
@@ -361,6 +362,53 @@ TEST_F(TextureImageTest, NullPixelsDefineTheSizeOnly) {
   const Texels patch = counting_texels(16 * 8);
   sub_image(0, 0, 16, 8, patch.data());
   EXPECT_EQ(read(16, 8), patch);
+}
+
+// The largest image there is costs no more memory than what is written to it.
+TEST_F(TextureImageTest, TheLargestImage) {
+  const GLsizei max = raster::kMaxTextureSize;
+  for (GLint border : {0, 1}) {
+    image(0, GL_RGBA16, max + 2 * border, max + 2 * border, border, nullptr);
+    EXPECT_GL(GL_NO_ERROR);
+    EXPECT_EQ(query(GL_TEXTURE_WIDTH), max + 2 * border);
+    const Texels patch = counting_texels(4);
+    sub_image(max - 2, max - 2, 2, 2, patch.data());
+    EXPECT_GL(GL_NO_ERROR);
+    const GLint nearest = GL_NEAREST;
+    op::tex_parameteriv(gl(), GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, &nearest);
+    gl().texture.enabled_2d = true;
+    const auto view = current_texture_view(gl());
+    ASSERT_NE(view, nullptr);
+    const raster::TextureLevel& level = *view->levels[0];
+    uint8_t last[4];
+    std::memcpy(last, level.base + size_t(max) * size_t(level.pitch) + size_t(max), 4);
+    EXPECT_EQ(Texels(last, last + 4), Texels(patch.end() - 4, patch.end()));
+    EXPECT_EQ(level.texel(max / 2, max / 2), 0u);
+  }
+}
+
+TEST_F(TextureImageTest, TransferActsOnTheWayInOnly) {
+  op::pixel_transfer(gl(), GL_RED_SCALE, 0.5f);
+  op::pixel_transfer(gl(), GL_ALPHA_BIAS, 1);
+  const Texels source = {100, 20, 30, 40, 7, 8, 9, 10};
+  image(0, GL_RGBA, 2, 1, 0, source.data());
+  EXPECT_EQ(read(2, 1), (Texels{50, 20, 30, 255, 4, 8, 9, 255}));
+  sub_image(1, 0, 1, 1, source.data());
+  EXPECT_EQ(read(2, 1), (Texels{50, 20, 30, 255, 50, 20, 30, 255}));
+}
+
+TEST_F(TextureImageTest, ColourIndicesGoThroughTheMaps) {
+  const GLfloat red[] = {0, 0.2f, 0.4f, 0.6f}, green[] = {1, 0};
+  op::pixel_mapfv(gl(), GL_PIXEL_MAP_I_TO_R, 4, red);
+  op::pixel_mapfv(gl(), GL_PIXEL_MAP_I_TO_G, 2, green);
+  const uint8_t indices[] = {3, 0, 1, 6};
+  image(0, GL_RGBA, 4, 1, 0, indices, GL_COLOR_INDEX);
+  EXPECT_GL(GL_NO_ERROR);
+  EXPECT_EQ(read(4, 1), (Texels{153, 0, 0, 0, 0, 255, 0, 0, 51, 0, 0, 0, 102, 255, 0, 0}));
+  const uint8_t bits[] = {0x50};  // 0 1 0 1
+  image(0, GL_RGB, 4, 1, 0, bits, GL_COLOR_INDEX, GL_BITMAP);
+  EXPECT_GL(GL_NO_ERROR);
+  EXPECT_EQ(read(4, 1), (Texels{0, 255, 0, 255, 51, 0, 0, 255, 0, 255, 0, 255, 51, 0, 0, 255}));
 }
 
 TEST_F(TextureImageTest, ProxiesAnswerWithoutErrors) {
