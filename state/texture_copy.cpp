@@ -41,7 +41,7 @@ class BufferRows {
     if (transfers_colors(context)) {
       read_transferred(context);
     } else {
-      context.device.read_color(found_, pixels_.data());
+      context.device.read_color(found_, pixels_.data(), read_plane(context));
       if (context.visual.alpha_bits == 0) set_alpha(pixels_, uint8_t{255});  // reads as 1
     }
     reduce_to_base(base, pixels_.data(), pixels_.size() / 4);
@@ -68,7 +68,7 @@ class BufferRows {
   }
   void read_transferred(Context& context) {
     std::vector<float> colors(pixels_.size());
-    context.device.read_color_float(found_, colors.data());
+    context.device.read_color_float(found_, colors.data(), read_plane(context));
     if (context.visual.alpha_bits == 0) set_alpha(colors, 1.0f);
     transfer_colors(context, colors.data(), colors.size() / 4);
     std::transform(colors.begin(), colors.end(), pixels_.begin(), [](float c) { return to_byte(c); });
