@@ -595,52 +595,52 @@ HALFSPACE_ENTRY GLboolean GLAPIENTRY glIsList(GLuint list) {
   return HALFSPACE_CALL(is_list, list);
 }
 
-HALFSPACE_ENTRY void GLAPIENTRY glVertexPointerEXT(GLint size, GLenum type, GLsizei stride, GLsizei, const GLvoid* pointer) {
-  HALFSPACE_CALL(vertex_pointer, size, type, stride, pointer);
-}
-
 HALFSPACE_ENTRY void GLAPIENTRY glVertexPointer(GLint size, GLenum type, GLsizei stride, const GLvoid* pointer) {
   HALFSPACE_CALL(vertex_pointer, size, type, stride, pointer);
-}
-
-HALFSPACE_ENTRY void GLAPIENTRY glColorPointerEXT(GLint size, GLenum type, GLsizei stride, GLsizei, const GLvoid* pointer) {
-  HALFSPACE_CALL(color_pointer, size, type, stride, pointer);
 }
 
 HALFSPACE_ENTRY void GLAPIENTRY glColorPointer(GLint size, GLenum type, GLsizei stride, const GLvoid* pointer) {
   HALFSPACE_CALL(color_pointer, size, type, stride, pointer);
 }
 
-HALFSPACE_ENTRY void GLAPIENTRY glNormalPointerEXT(GLenum type, GLsizei stride, GLsizei, const GLvoid* pointer) {
-  HALFSPACE_CALL(normal_pointer, type, stride, pointer);
-}
-
 HALFSPACE_ENTRY void GLAPIENTRY glNormalPointer(GLenum type, GLsizei stride, const GLvoid* pointer) {
   HALFSPACE_CALL(normal_pointer, type, stride, pointer);
-}
-
-HALFSPACE_ENTRY void GLAPIENTRY glTexCoordPointerEXT(GLint size, GLenum type, GLsizei stride, GLsizei, const GLvoid* pointer) {
-  HALFSPACE_CALL(tex_coord_pointer, size, type, stride, pointer);
 }
 
 HALFSPACE_ENTRY void GLAPIENTRY glTexCoordPointer(GLint size, GLenum type, GLsizei stride, const GLvoid* pointer) {
   HALFSPACE_CALL(tex_coord_pointer, size, type, stride, pointer);
 }
 
-HALFSPACE_ENTRY void GLAPIENTRY glEdgeFlagPointerEXT(GLsizei stride, GLsizei, const GLboolean* pointer) {
-  HALFSPACE_CALL(edge_flag_pointer, stride, pointer);
-}
-
 HALFSPACE_ENTRY void GLAPIENTRY glEdgeFlagPointer(GLsizei stride, const GLvoid* pointer) {
   HALFSPACE_CALL(edge_flag_pointer, stride, pointer);
 }
 
-HALFSPACE_ENTRY void GLAPIENTRY glIndexPointerEXT(GLenum type, GLsizei stride, GLsizei, const GLvoid* pointer) {
+HALFSPACE_ENTRY void GLAPIENTRY glIndexPointer(GLenum type, GLsizei stride, const GLvoid* pointer) {
   HALFSPACE_CALL(index_pointer, type, stride, pointer);
 }
 
-HALFSPACE_ENTRY void GLAPIENTRY glIndexPointer(GLenum type, GLsizei stride, const GLvoid* pointer) {
-  HALFSPACE_CALL(index_pointer, type, stride, pointer);
+HALFSPACE_ENTRY void GLAPIENTRY glVertexPointerEXT(GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer) {
+  HALFSPACE_CALL(vertex_pointer_ext, size, type, stride, count, pointer);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glColorPointerEXT(GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer) {
+  HALFSPACE_CALL(color_pointer_ext, size, type, stride, count, pointer);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glNormalPointerEXT(GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer) {
+  HALFSPACE_CALL(normal_pointer_ext, type, stride, count, pointer);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glTexCoordPointerEXT(GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer) {
+  HALFSPACE_CALL(tex_coord_pointer_ext, size, type, stride, count, pointer);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEdgeFlagPointerEXT(GLsizei stride, GLsizei count, const GLboolean* pointer) {
+  HALFSPACE_CALL(edge_flag_pointer_ext, stride, count, pointer);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glIndexPointerEXT(GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer) {
+  HALFSPACE_CALL(index_pointer_ext, type, stride, count, pointer);
 }
 
 HALFSPACE_ENTRY void GLAPIENTRY glInterleavedArrays(GLenum format, GLsizei stride, const GLvoid* pointer) {

@@ -77,13 +77,13 @@ using AttributeGroups = std::tuple<                                             
     Group<GL_LINE_BIT, Whole<&Context::line>>,                                                  //
     Group<GL_PIXEL_MODE_BIT, Part<&Context::color_buffer, &ColorBufferState::read_buffer>, 0>,  //
     Group<GL_PIXEL_MODE_BIT, Whole<&Context::pixel_transfer>, 0>,                               //
-    Group<GL_PIXEL_MODE_BIT, Whole<&Context::pixel_transfer>, 0>,                               //
     Group<GL_POINT_BIT, Whole<&Context::point>>,                                                //
     Group<GL_POLYGON_BIT, Whole<&Context::polygon>>,                                            //
     Group<GL_POLYGON_STIPPLE_BIT, Whole<&Context::polygon_stipple>>,                            //
     Group<GL_SCISSOR_BIT, Whole<&Context::scissor>>,                                            //
     Group<GL_TEXTURE_BIT, SavedTextures>,                                                       //
     Group<GL_TRANSFORM_BIT, Whole<&Context::clip_plane>>,                                       //
+    Group<GL_TEXTURE_BIT, Whole<&Context::tex_gen>>,                                            //
     Group<GL_TRANSFORM_BIT, Part<&Context::transform, &TransformState::mode>, 0>,               //
     Group<GL_TRANSFORM_BIT, Part<&Context::transform, &TransformState::normalize>>,             //
     Group<GL_VIEWPORT_BIT, Whole<&Context::viewport>>                                           //

@@ -41,6 +41,12 @@ struct OperationTable {
   void (*tex_coord_pointer)(Context&, GLint size, GLenum type, GLsizei stride, const GLvoid* pointer);
   void (*edge_flag_pointer)(Context&, GLsizei stride, const GLvoid* pointer);
   void (*index_pointer)(Context&, GLenum type, GLsizei stride, const GLvoid* pointer);
+  void (*vertex_pointer_ext)(Context&, GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
+  void (*color_pointer_ext)(Context&, GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
+  void (*normal_pointer_ext)(Context&, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
+  void (*tex_coord_pointer_ext)(Context&, GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
+  void (*edge_flag_pointer_ext)(Context&, GLsizei stride, GLsizei count, const GLboolean* pointer);
+  void (*index_pointer_ext)(Context&, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
   void (*interleaved_arrays)(Context&, GLenum format, GLsizei stride, const GLvoid* pointer);
   void (*enable_client_state)(Context&, GLenum array);
   void (*disable_client_state)(Context&, GLenum array);
@@ -193,6 +199,12 @@ void normal_pointer(Context&, GLenum type, GLsizei stride, const GLvoid* pointer
 void tex_coord_pointer(Context&, GLint size, GLenum type, GLsizei stride, const GLvoid* pointer);
 void edge_flag_pointer(Context&, GLsizei stride, const GLvoid* pointer);
 void index_pointer(Context&, GLenum type, GLsizei stride, const GLvoid* pointer);
+void vertex_pointer_ext(Context&, GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
+void color_pointer_ext(Context&, GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
+void normal_pointer_ext(Context&, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
+void tex_coord_pointer_ext(Context&, GLint size, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
+void edge_flag_pointer_ext(Context&, GLsizei stride, GLsizei count, const GLboolean* pointer);
+void index_pointer_ext(Context&, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer);
 void interleaved_arrays(Context&, GLenum format, GLsizei stride, const GLvoid* pointer);
 void enable_client_state(Context&, GLenum array);
 void disable_client_state(Context&, GLenum array);

@@ -1,6 +1,7 @@
 #include "state/vertex_array.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "state/context.h"
 #include "state/get.h"
@@ -41,6 +42,17 @@ void set_pointer(Context& context, ClientArray& array, bool size_known, bool typ
   const bool enabled = array.enabled;
   array = value;
   array.enabled = enabled;
+}
+
+// GL_EXT_vertex_array: `set` is the command without a count; what it refuses leaves the array as it was.
+template <class Set>
+void set_pointer_and_count(Context& context, ClientArray& array, GLsizei count, const char* operation,
+                           Set&& set) {
+  if (count < 0) return record_error(context, GL_INVALID_VALUE, operation);
+  const GLenum pending = std::exchange(context.error.code, GL_NO_ERROR);
+  set();
+  if (context.error.code == GL_NO_ERROR) array.count = count;
+  if (pending != GL_NO_ERROR) context.error.code = pending;
 }
 
 // Spec table 2.5: what an interleaved format holds, and where, in bytes.
@@ -122,6 +134,39 @@ void index_pointer(Context& context, GLenum type, GLsizei stride, const GLvoid* 
               {false, 1, type, stride, pointer}, "index_pointer");
 }
 
+void vertex_pointer_ext(Context& context, GLint size, GLenum type, GLsizei stride, GLsizei count,
+                        const GLvoid* pointer) {
+  set_pointer_and_count(context, context.vertex_array.vertex, count, "vertex_pointer_ext",
+                        [&] { vertex_pointer(context, size, type, stride, pointer); });
+}
+
+void color_pointer_ext(Context& context, GLint size, GLenum type, GLsizei stride, GLsizei count,
+                       const GLvoid* pointer) {
+  set_pointer_and_count(context, context.vertex_array.color, count, "color_pointer_ext",
+                        [&] { color_pointer(context, size, type, stride, pointer); });
+}
+
+void normal_pointer_ext(Context& context, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer) {
+  set_pointer_and_count(context, context.vertex_array.normal, count, "normal_pointer_ext",
+                        [&] { normal_pointer(context, type, stride, pointer); });
+}
+
+void tex_coord_pointer_ext(Context& context, GLint size, GLenum type, GLsizei stride, GLsizei count,
+                           const GLvoid* pointer) {
+  set_pointer_and_count(context, context.vertex_array.tex_coord, count, "tex_coord_pointer_ext",
+                        [&] { tex_coord_pointer(context, size, type, stride, pointer); });
+}
+
+void edge_flag_pointer_ext(Context& context, GLsizei stride, GLsizei count, const GLboolean* pointer) {
+  set_pointer_and_count(context, context.vertex_array.edge_flag, count, "edge_flag_pointer_ext",
+                        [&] { edge_flag_pointer(context, stride, pointer); });
+}
+
+void index_pointer_ext(Context& context, GLenum type, GLsizei stride, GLsizei count, const GLvoid* pointer) {
+  set_pointer_and_count(context, context.vertex_array.index, count, "index_pointer_ext",
+                        [&] { index_pointer(context, type, stride, pointer); });
+}
+
 void interleaved_arrays(Context& context, GLenum format, GLsizei stride, const GLvoid* pointer) {
   const auto* f = std::find_if(std::begin(kInterleavedFormats), std::end(kInterleavedFormats),
                                [format](const InterleavedFormat& row) { return row.name == format; });
@@ -197,22 +242,28 @@ std::span<const GetRow> vertex_array_get_rows() {
       ARRAY_ROW(GL_VERTEX_ARRAY_SIZE, integer, vertex, size),
       ARRAY_ROW(GL_VERTEX_ARRAY_TYPE, enumeration, vertex, type),
       ARRAY_ROW(GL_VERTEX_ARRAY_STRIDE, integer, vertex, stride),
+      ARRAY_ROW(GL_VERTEX_ARRAY_COUNT_EXT, integer, vertex, count),
       ARRAY_ROW(GL_COLOR_ARRAY, boolean, color, enabled),
       ARRAY_ROW(GL_COLOR_ARRAY_SIZE, integer, color, size),
       ARRAY_ROW(GL_COLOR_ARRAY_TYPE, enumeration, color, type),
       ARRAY_ROW(GL_COLOR_ARRAY_STRIDE, integer, color, stride),
+      ARRAY_ROW(GL_COLOR_ARRAY_COUNT_EXT, integer, color, count),
       ARRAY_ROW(GL_TEXTURE_COORD_ARRAY, boolean, tex_coord, enabled),
       ARRAY_ROW(GL_TEXTURE_COORD_ARRAY_SIZE, integer, tex_coord, size),
       ARRAY_ROW(GL_TEXTURE_COORD_ARRAY_TYPE, enumeration, tex_coord, type),
       ARRAY_ROW(GL_TEXTURE_COORD_ARRAY_STRIDE, integer, tex_coord, stride),
+      ARRAY_ROW(GL_TEXTURE_COORD_ARRAY_COUNT_EXT, integer, tex_coord, count),
       ARRAY_ROW(GL_NORMAL_ARRAY, boolean, normal, enabled),
       ARRAY_ROW(GL_NORMAL_ARRAY_TYPE, enumeration, normal, type),
       ARRAY_ROW(GL_NORMAL_ARRAY_STRIDE, integer, normal, stride),
+      ARRAY_ROW(GL_NORMAL_ARRAY_COUNT_EXT, integer, normal, count),
       ARRAY_ROW(GL_EDGE_FLAG_ARRAY, boolean, edge_flag, enabled),
       ARRAY_ROW(GL_EDGE_FLAG_ARRAY_STRIDE, integer, edge_flag, stride),
+      ARRAY_ROW(GL_EDGE_FLAG_ARRAY_COUNT_EXT, integer, edge_flag, count),
       ARRAY_ROW(GL_INDEX_ARRAY, boolean, index, enabled),
       ARRAY_ROW(GL_INDEX_ARRAY_TYPE, enumeration, index, type),
       ARRAY_ROW(GL_INDEX_ARRAY_STRIDE, integer, index, stride),
+      ARRAY_ROW(GL_INDEX_ARRAY_COUNT_EXT, integer, index, count),
   };
   return kRows;
 }

@@ -15,6 +15,7 @@ struct ClientArray {
   GLenum type = GL_FLOAT;
   GLsizei stride = 0;  // as given; 0: packed
   const void* pointer = nullptr;
+  GLsizei count = 0;  // elements that stay as they are, as GL_EXT_vertex_array promises; kept and queried
 };
 
 struct VertexArrayState {

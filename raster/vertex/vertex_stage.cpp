@@ -446,7 +446,8 @@ void shade_vertices(const DrawState& state, const VertexBatch& batch, std::span<
   run_job(state, batch, materials, out.layout.projective ? 3 : 2, first, count, out);
 }
 
-VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& batch) {
+VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& batch,
+                                  std::span<const MaterialPair> materials) {
   struct {
     VertexHead head;
     float color[4], tex_coord[4], fog, back_color[4];
@@ -460,7 +461,7 @@ VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& bat
   one.count = 1;
   one.outcodes.resize(1);
   one.clip.resize(1);
-  run_job(state, batch, {}, 4, 0, 1, one);
+  run_job(state, batch, materials, 4, 0, 1, one);
   const auto color_of = [](const float(&c)[4]) { return Color{c[0], c[1], c[2], c[3]}; };
   VertexAttributes result{color_of(record.color), color_of(record.color), {}, record.fog};
   std::memcpy(result.tex_coord, record.tex_coord, sizeof result.tex_coord);

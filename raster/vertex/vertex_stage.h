@@ -27,6 +27,7 @@ struct VertexAttributes {
   float tex_coord[4];       // s t r q, generated and through the texture matrix
   float eye_distance;       // |z_e|
 };
-VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& batch);
+VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& batch,
+                                  std::span<const MaterialPair> materials = {});
 
 }  // namespace halfspace::raster
