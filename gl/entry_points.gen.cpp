@@ -595,6 +595,98 @@ HALFSPACE_ENTRY GLboolean GLAPIENTRY glIsList(GLuint list) {
   return HALFSPACE_CALL(is_list, list);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glMap1f(GLenum target, GLfloat u1, GLfloat u2, GLint stride, GLint order, const GLfloat* points) {
+  HALFSPACE_CALL(map1f, target, u1, u2, stride, order, points);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glMap1d(GLenum target, GLdouble u1, GLdouble u2, GLint stride, GLint order, const GLdouble* points) {
+  HALFSPACE_CALL(map1d, target, u1, u2, stride, order, points);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glMap2f(GLenum target, GLfloat u1, GLfloat u2, GLint ustride, GLint uorder, GLfloat v1, GLfloat v2, GLint vstride, GLint vorder, const GLfloat* points) {
+  HALFSPACE_CALL(map2f, target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glMap2d(GLenum target, GLdouble u1, GLdouble u2, GLint ustride, GLint uorder, GLdouble v1, GLdouble v2, GLint vstride, GLint vorder, const GLdouble* points) {
+  HALFSPACE_CALL(map2d, target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetMapdv(GLenum target, GLenum query, GLdouble* v) {
+  HALFSPACE_CALL(get_mapdv, target, query, v);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetMapfv(GLenum target, GLenum query, GLfloat* v) {
+  HALFSPACE_CALL(get_mapfv, target, query, v);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glGetMapiv(GLenum target, GLenum query, GLint* v) {
+  HALFSPACE_CALL(get_mapiv, target, query, v);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glMapGrid1f(GLint un, GLfloat u1, GLfloat u2) {
+  HALFSPACE_CALL(map_grid1, un, static_cast<GLdouble>(u1), static_cast<GLdouble>(u2));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glMapGrid1d(GLint un, GLdouble u1, GLdouble u2) {
+  HALFSPACE_CALL(map_grid1, un, u1, u2);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glMapGrid2f(GLint un, GLfloat u1, GLfloat u2, GLint vn, GLfloat v1, GLfloat v2) {
+  HALFSPACE_CALL(map_grid2, un, static_cast<GLdouble>(u1), static_cast<GLdouble>(u2), vn, static_cast<GLdouble>(v1), static_cast<GLdouble>(v2));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glMapGrid2d(GLint un, GLdouble u1, GLdouble u2, GLint vn, GLdouble v1, GLdouble v2) {
+  HALFSPACE_CALL(map_grid2, un, u1, u2, vn, v1, v2);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalCoord1f(GLfloat u) {
+  HALFSPACE_CALL(eval_coord1, static_cast<GLdouble>(u));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalCoord1fv(const GLfloat* u) {
+  HALFSPACE_CALL(eval_coord1, static_cast<GLdouble>(u[0]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalCoord1d(GLdouble u) {
+  HALFSPACE_CALL(eval_coord1, u);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalCoord1dv(const GLdouble* u) {
+  HALFSPACE_CALL(eval_coord1, u[0]);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalCoord2f(GLfloat u, GLfloat v) {
+  HALFSPACE_CALL(eval_coord2, static_cast<GLdouble>(u), static_cast<GLdouble>(v));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalCoord2fv(const GLfloat* u) {
+  HALFSPACE_CALL(eval_coord2, static_cast<GLdouble>(u[0]), static_cast<GLdouble>(u[1]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalCoord2d(GLdouble u, GLdouble v) {
+  HALFSPACE_CALL(eval_coord2, u, v);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalCoord2dv(const GLdouble* u) {
+  HALFSPACE_CALL(eval_coord2, u[0], u[1]);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalPoint1(GLint i) {
+  HALFSPACE_CALL(eval_point1, i);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalPoint2(GLint i, GLint j) {
+  HALFSPACE_CALL(eval_point2, i, j);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalMesh1(GLenum mode, GLint i1, GLint i2) {
+  HALFSPACE_CALL(eval_mesh1, mode, i1, i2);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glEvalMesh2(GLenum mode, GLint i1, GLint i2, GLint j1, GLint j2) {
+  HALFSPACE_CALL(eval_mesh2, mode, i1, i2, j1, j2);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glVertexPointer(GLint size, GLenum type, GLsizei stride, const GLvoid* pointer) {
   HALFSPACE_CALL(vertex_pointer, size, type, stride, pointer);
 }

@@ -71,6 +71,7 @@ using AttributeGroups = std::tuple<                                             
     Group<GL_CURRENT_BIT, Whole<&Context::current>, 0>,                                         //
     Group<GL_DEPTH_BUFFER_BIT, Whole<&Context::depth_buffer>>,                                  //
     Group<GL_ENABLE_BIT, SavedEnables>,                                                         //
+    Group<GL_EVAL_BIT, Whole<&Context::evaluator>, 0>,                                          //
     Group<GL_HINT_BIT, Whole<&Context::hint>>,                                                  //
     Group<GL_LIGHTING_BIT, Whole<&Context::lighting>>,                                          //
     Group<GL_LIST_BIT, Whole<&Context::list>, 0>,                                               //

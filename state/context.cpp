@@ -10,7 +10,10 @@ thread_local constinit CurrentBinding current_binding
     __attribute__((tls_model("initial-exec"))) = {nullptr, &kNoContextTable};
 
 Context::Context(const VisualConfig& config, Context* share)
-    : visual(config), table(&kExecuteTable), texture(share ? &share->texture : nullptr), lists(share ? &share->lists : nullptr) {
+    : visual(config),
+      table(&kExecuteTable),
+      texture(share ? &share->texture : nullptr),
+      lists(share ? &share->lists : nullptr) {
   color_buffer.draw_buffer = color_buffer.read_buffer = config.double_buffered ? GL_BACK : GL_FRONT;
   derived.accuracy = accuracy_from_environment();
 }

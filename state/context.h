@@ -15,6 +15,7 @@
 #include "state/display_list.h"
 #include "state/drawable.h"
 #include "state/error.h"
+#include "state/evaluator.h"
 #include "state/feedback.h"
 #include "state/hint.h"
 #include "state/immediate.h"
@@ -80,6 +81,8 @@ struct Context {
   RenderModeState render_mode;
   SelectionState selection;
   FeedbackState feedback;
+  EvaluatorState evaluator;
+  EvaluatorMaps maps;
   DerivedState derived;
 
   raster::Device device;

@@ -32,6 +32,7 @@ std::vector<GetRow> collect_rows() {
            pixel_map_get_rows(),        //
            attribute_stack_get_rows(),  //
            list_get_rows(),             //
+           evaluator_get_rows(),        //
            render_mode_get_rows(),      //
            selection_get_rows(),        //
            feedback_get_rows(),         //

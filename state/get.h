@@ -55,6 +55,7 @@ std::span<const GetRow> hint_get_rows();
 std::span<const GetRow> vertex_array_get_rows();
 std::span<const GetRow> limits_get_rows();
 std::span<const GetRow> list_get_rows();
+std::span<const GetRow> evaluator_get_rows();
 std::span<const GetRow> texture_get_rows();
 std::span<const GetRow> pixel_store_get_rows();
 std::span<const GetRow> attribute_stack_get_rows();

@@ -40,7 +40,6 @@ constexpr GetRow kRows[] = {
     FIXED(GL_MAX_TEXTURE_SIZE, integer, raster::kMaxTextureSize),
     FIXED(GL_MAX_LIGHTS, integer, 8),
     FIXED(GL_MAX_CLIP_PLANES, integer, raster::kMaxClipPlanes),
-    FIXED(GL_MAX_EVAL_ORDER, integer, 8),
     // the visual
     VISUAL(GL_RED_BITS, integer, red_bits),
     VISUAL(GL_GREEN_BITS, integer, green_bits),
@@ -80,10 +79,6 @@ constexpr GetRow kRows[] = {
     FIXED(GL_STENCIL_WRITEMASK, integer, 0xffffffff),
     FIXED_4(GL_ACCUM_CLEAR_VALUE, normalized, 0, 0, 0, 0),
     FIXED(GL_LOGIC_OP_MODE, enumeration, GL_COPY),
-    FIXED_2(GL_MAP1_GRID_DOMAIN, real, 0, 1),
-    FIXED(GL_MAP1_GRID_SEGMENTS, integer, 1),
-    FIXED_4(GL_MAP2_GRID_DOMAIN, real, 0, 1, 0, 1),
-    FIXED_2(GL_MAP2_GRID_SEGMENTS, integer, 1, 1),
 };
 #undef FIXED
 #undef FIXED_2

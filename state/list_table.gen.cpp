@@ -20,6 +20,26 @@ void call_lists(Context& context, GLsizei n, GLenum type, const GLvoid* names) {
   Compiled<&OperationTable::call_lists>::execute(context, n, type, names);
 }
 
+void map1f(Context& context, GLenum target, GLfloat u1, GLfloat u2, GLint stride, GLint order, const GLfloat* points) {
+  compiling(context, [&] { Compiled<&OperationTable::map1f>::record(context, target, u1, u2, stride, order, keep(context, points, map1_values(target, stride, order))); });
+  Compiled<&OperationTable::map1f>::execute(context, target, u1, u2, stride, order, points);
+}
+
+void map1d(Context& context, GLenum target, GLdouble u1, GLdouble u2, GLint stride, GLint order, const GLdouble* points) {
+  compiling(context, [&] { Compiled<&OperationTable::map1d>::record(context, target, u1, u2, stride, order, keep(context, points, map1_values(target, stride, order))); });
+  Compiled<&OperationTable::map1d>::execute(context, target, u1, u2, stride, order, points);
+}
+
+void map2f(Context& context, GLenum target, GLfloat u1, GLfloat u2, GLint u_stride, GLint u_order, GLfloat v1, GLfloat v2, GLint v_stride, GLint v_order, const GLfloat* points) {
+  compiling(context, [&] { Compiled<&OperationTable::map2f>::record(context, target, u1, u2, u_stride, u_order, v1, v2, v_stride, v_order, keep(context, points, map2_values(target, u_stride, u_order, v_stride, v_order))); });
+  Compiled<&OperationTable::map2f>::execute(context, target, u1, u2, u_stride, u_order, v1, v2, v_stride, v_order, points);
+}
+
+void map2d(Context& context, GLenum target, GLdouble u1, GLdouble u2, GLint u_stride, GLint u_order, GLdouble v1, GLdouble v2, GLint v_stride, GLint v_order, const GLdouble* points) {
+  compiling(context, [&] { Compiled<&OperationTable::map2d>::record(context, target, u1, u2, u_stride, u_order, v1, v2, v_stride, v_order, keep(context, points, map2_values(target, u_stride, u_order, v_stride, v_order))); });
+  Compiled<&OperationTable::map2d>::execute(context, target, u1, u2, u_stride, u_order, v1, v2, v_stride, v_order, points);
+}
+
 void load_matrix(Context& context, const GLdouble* m) {
   compiling(context, [&] { Compiled<&OperationTable::load_matrix>::record(context, keep(context, m, 16)); });
   Compiled<&OperationTable::load_matrix>::execute(context, m);
@@ -136,6 +156,21 @@ const OperationTable kCompileTable = {
     .gen_lists = Compiled<&OperationTable::gen_lists>::pass,
     .delete_lists = Compiled<&OperationTable::delete_lists>::pass,
     .is_list = Compiled<&OperationTable::is_list>::pass,
+    .map1f = compile::map1f,
+    .map1d = compile::map1d,
+    .map2f = compile::map2f,
+    .map2d = compile::map2d,
+    .get_mapdv = Compiled<&OperationTable::get_mapdv>::pass,
+    .get_mapfv = Compiled<&OperationTable::get_mapfv>::pass,
+    .get_mapiv = Compiled<&OperationTable::get_mapiv>::pass,
+    .map_grid1 = Compiled<&OperationTable::map_grid1>::compile,
+    .map_grid2 = Compiled<&OperationTable::map_grid2>::compile,
+    .eval_coord1 = Compiled<&OperationTable::eval_coord1>::compile,
+    .eval_coord2 = Compiled<&OperationTable::eval_coord2>::compile,
+    .eval_point1 = Compiled<&OperationTable::eval_point1>::compile,
+    .eval_point2 = Compiled<&OperationTable::eval_point2>::compile,
+    .eval_mesh1 = Compiled<&OperationTable::eval_mesh1>::compile,
+    .eval_mesh2 = Compiled<&OperationTable::eval_mesh2>::compile,
     .vertex_pointer = Compiled<&OperationTable::vertex_pointer>::pass,
     .color_pointer = Compiled<&OperationTable::color_pointer>::pass,
     .normal_pointer = Compiled<&OperationTable::normal_pointer>::pass,
