@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "state/list_index.h"
 #include "state/list_memory.h"
 
 namespace halfspace::state {
@@ -108,10 +109,10 @@ ListBatchBuilder ListBatchBuilder::split_last_pair() {
   return tail;
 }
 
-ListBatch store_batch(ListMemory& memory, const ListBatchBuilder& builder, const ListValues& last) {
-  ListBatch batch;
-  batch.mode = builder.mode;
-  batch.count = batch.index_count = builder.count;
+namespace {
+
+void store_columns(ListMemory& memory, const ListBatchBuilder& builder, ListBatch& batch) {
+  batch.count = builder.count;
   batch.position = store_column(memory, builder.position.data(), 4, builder.count, 0);
   for (size_t a = 0; a < kListColumns; ++a) {
     const ListBatchBuilder::Column& column = builder.columns[a];
@@ -120,6 +121,18 @@ ListBatch store_batch(ListMemory& memory, const ListBatchBuilder& builder, const
         store_column(memory, column.data.data(), kListAttributeSize[a], builder.count, column.unset);
   }
   batch.edge_flags = store_flags(memory, builder.columns[kListEdgeFlag].data);
+}
+
+}  // namespace
+
+ListBatch store_batch(ListMemory& memory, const ListBatchBuilder& builder, const ListValues& last) {
+  ListBatch batch;
+  IndexedBuilder indexed;
+  const bool repeats = find_repeated_vertices(builder, indexed);
+  batch.mode = builder.mode;
+  store_columns(memory, repeats ? indexed.vertices : builder, batch);
+  batch.index_count = builder.count;
+  if (repeats) batch.indices = memory.copy(indexed.indices.data(), indexed.indices.size());
   batch.last = last;
   batch.materials = memory.copy(builder.materials.data(), builder.materials.size());
   batch.material_count = uint32_t(builder.materials.size());

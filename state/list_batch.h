@@ -15,7 +15,8 @@ struct Context;
 class ListMemory;
 
 enum ListAttribute : uint8_t { kListColor, kListNormal, kListTexCoord, kListEdgeFlag, kListIndex };
-inline constexpr size_t kListColumns = 4;  // vertices have no colour index: an RGBA visual draws nothing with it
+inline constexpr size_t kListColumns =
+    4;  // vertices have no colour index: an RGBA visual draws nothing with it
 inline constexpr size_t kListAttributes = 5;
 inline constexpr std::array<uint8_t, kListAttributes> kListAttributeSize{4, 3, 4, 1, 1};  // floats
 

@@ -41,6 +41,34 @@ TEST_F(ListTest, NeighboursBecomeOneBatch) {
   EXPECT_EQ(recorded_draws[1].position_data, first);  // the list's own memory
 }
 
+// A mesh given triangle by triangle: a corner that comes again with the same attributes is one vertex.
+TEST_F(ListTest, RepeatedVerticesAreStoredOnce) {
+  const auto mesh = [](Calls to) {
+    to.begin(GL_TRIANGLES);
+    for (int i = 0; i < 12; ++i) {
+      for (int corner : {i, i + 1, i + 2}) {
+        to.color(float(corner) / 16);
+        to.vertex(float(corner), float(corner % 2));
+      }
+    }
+    to.end();
+  };
+  expect_same(mesh);
+  renew();
+  Calls gl = calls();
+  gl.new_list(1);
+  mesh(gl);
+  gl.color(1);  // the same place in another colour is another vertex
+  gl.begin(GL_TRIANGLES);
+  for (int i = 0; i < 3; ++i) gl.vertex(float(i), float(i % 2));
+  gl.end();
+  gl.end_list();
+  gl.call_list(1);
+  ASSERT_EQ(recorded_draws.size(), 1u);
+  EXPECT_EQ(recorded_draws[0].batch_count, 14u + 3u);
+  EXPECT_EQ(recorded_draws[0].vertices.size(), 36u + 3u);
+}
+
 TEST_F(ListTest, StateBetweenPairsPartsThem) {
   expect_same([](Calls gl) {
     draw_shape(gl, GL_QUADS, 4);
