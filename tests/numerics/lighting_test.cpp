@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <iostream>
+#include <type_traits>
 #include <vector>
 
 #include "raster/vertex/vertex_stage.h"
@@ -43,6 +44,14 @@ struct Scenario {
     return b;
   }
 };
+
+oracle::Real3 real3(const float* v) {
+  return {static_cast<long double>(v[0]), static_cast<long double>(v[1]), static_cast<long double>(v[2])};
+}
+oracle::Real4 real4(const float* v) {
+  const oracle::Real3 xyz = real3(v);
+  return {xyz[0], xyz[1], xyz[2], static_cast<long double>(v[3])};
+}
 
 Color random_color(Random& r, float low = 0) {
   const auto c = [&] { return r.integer(0, 4) == 0 ? 0.0f : r.real(low, 1); };
@@ -147,7 +156,7 @@ Scenario random_scenario(uint64_t seed) {
     v.color[3] = r.real(0, 1);
     v.tex_coord[3] = 1;
     // Of length 1 in eye coordinates, as applications have them.
-    const oracle::Real3 n = oracle::eye_normal(s.state, {v.normal[0], v.normal[1], v.normal[2]});
+    const oracle::Real3 n = oracle::eye_normal(s.state, real3(v.normal));
     const float length = float(std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
     for (float& c : v.normal) c /= length;
   }
@@ -189,13 +198,13 @@ oracle::LitVertex truth(const Scenario& s, uint32_t i) {
   MaterialPair pair = s.materials.empty() ? s.state.lighting.material : s.materials[s.material_index[i]];
   track(s.state.lighting.color_material_front, v.color, pair.front);
   track(s.state.lighting.color_material_back, v.color, pair.back);
-  return oracle::light_vertex(s.state, pair, {v.position[0], v.position[1], v.position[2], v.position[3]},
-                              {v.normal[0], v.normal[1], v.normal[2]});
+  return oracle::light_vertex(s.state, pair, real4(v.position), real3(v.normal));
 }
 
 long double worst_of(const oracle::Real4& expected, const float* got) {
   long double worst = 0;
-  for (size_t k = 0; k < 4; ++k) worst = std::max(worst, std::fabs(expected[k] - (long double)got[k]));
+  for (size_t k = 0; k < 4; ++k)
+    worst = std::max(worst, std::fabs(expected[k] - static_cast<long double>(got[k])));
   return worst;
 }
 
@@ -282,7 +291,7 @@ TEST(Lighting, BadInputStaysInRange) {
     Scenario s = random_scenario(seed);
     Random r(seed + 5000);
     const auto spoil = [&](auto& v) {
-      if (r.integer(0, 3) == 0) v = bad[r.integer(0, 10)];
+      if (r.integer(0, 3) == 0) v = std::decay_t<decltype(v)>(bad[r.integer(0, 10)]);
     };
     for (LitVertexInput& v : s.vertices) {
       for (float& f : v.normal) spoil(f);
@@ -357,14 +366,13 @@ TEST(TexGen, IsTheSpecsFormula) {
     for (uint32_t i = 0; i < kVertices; ++i) {
       const LitVertexInput& v = s.vertices[i];
       const oracle::Real4 expected =
-          oracle::generate(s.state, {v.position[0], v.position[1], v.position[2], v.position[3]},
-                           {v.normal[0], v.normal[1], v.normal[2]},
-                           {v.tex_coord[0], v.tex_coord[1], v.tex_coord[2], v.tex_coord[3]});
+          oracle::generate(s.state, real4(v.position), real3(v.normal), real4(v.tex_coord));
       const float* got = shaded.out.attributes(i) + layout.tex_coord;
       // Relative to the terms of the sum, which are below 20.
-      long double error = std::max(std::fabs(expected[0] - (long double)got[0]),
-                                   std::fabs(expected[1] - (long double)got[1]));
-      if (layout.projective) error = std::max(error, std::fabs(expected[3] - (long double)got[2]));
+      long double error = std::max(std::fabs(expected[0] - static_cast<long double>(got[0])),
+                                   std::fabs(expected[1] - static_cast<long double>(got[1])));
+      if (layout.projective)
+        error = std::max(error, std::fabs(expected[3] - static_cast<long double>(got[2])));
       worst = std::max(worst, error);
       ASSERT_LE(error, 2e-5L) << "seed " << seed << ", vertex " << i;
     }

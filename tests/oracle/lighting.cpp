@@ -15,7 +15,11 @@ Real3 unit(const Real3& v) {
 }
 Real3 plus(const Real3& a, const Real3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 long double not_negative(long double v) { return v > 0 ? v : 0; }
-Real4 wide(const Color& c) { return {c.r, c.g, c.b, c.a}; }
+template <class T>
+long double real(T v) {
+  return static_cast<long double>(v);
+}
+Real4 wide(const Color& c) { return {real(c.r), real(c.g), real(c.b), real(c.a)}; }
 
 // The spec's arrow: the unit vector from a to b, either of which may be infinitely far away.
 Real3 arrow(const Real4& a, const Real4& b) {
@@ -28,8 +32,8 @@ long double attenuation(const raster::Light& light, const Real4& v, const Real4&
   if (p[3] == 0) return 1;
   const long double d =
       length({p[0] / p[3] - v[0] / v[3], p[1] / p[3] - v[1] / v[3], p[2] / p[3] - v[2] / v[3]});
-  return 1 /
-         (light.constant_attenuation + light.linear_attenuation * d + light.quadratic_attenuation * d * d);
+  return 1 / (real(light.constant_attenuation) + real(light.linear_attenuation) * d +
+              real(light.quadratic_attenuation) * d * d);
 }
 
 struct Spot {
@@ -38,12 +42,12 @@ struct Spot {
 
 Spot spot(const raster::Light& light, const Real4& v, const Real4& p) {
   if (light.spot_cutoff == 180) return {1, 1};
-  const Real3 s = unit({light.spot_direction[0], light.spot_direction[1], light.spot_direction[2]});
+  const Real3 s =
+      unit({real(light.spot_direction[0]), real(light.spot_direction[1]), real(light.spot_direction[2])});
   const long double cosine = dot(arrow(p, v), s);
-  const long double edge =
-      std::cos((long double)light.spot_cutoff * 3.14159265358979323846264338327950288L / 180);
+  const long double edge = std::cos(real(light.spot_cutoff) * 3.14159265358979323846264338327950288L / 180);
   const long double margin = std::fabs(cosine - edge);
-  return {cosine >= edge ? std::pow(cosine, (long double)light.spot_exponent) : 0, margin};
+  return {cosine >= edge ? std::pow(cosine, real(light.spot_exponent)) : 0, margin};
 }
 
 struct Sums {
@@ -53,15 +57,15 @@ struct Sums {
 
 void add_light(const raster::DrawState& state, const raster::Light& light, const raster::Material& material,
                const Real4& v, const Real3& n, Sums& sums) {
-  const Real4 p{light.position[0], light.position[1], light.position[2], light.position[3]};
+  const Real4 p{real(light.position[0]), real(light.position[1]), real(light.position[2]),
+                real(light.position[3])};
   const Real3 to_light = arrow(v, p);
   const Real3 to_eye = state.lighting.local_viewer ? arrow(v, {0, 0, 0, 1}) : Real3{0, 0, 1};
   const Real3 half = unit(plus(to_light, to_eye));
   const long double n_dot_l = dot(n, to_light);
   const Spot cone = spot(light, v, p);
   const long double weight = attenuation(light, v, p) * cone.factor;
-  const long double shine =
-      n_dot_l > 0 ? std::pow(not_negative(dot(n, half)), (long double)material.shininess) : 0;
+  const long double shine = n_dot_l > 0 ? std::pow(not_negative(dot(n, half)), real(material.shininess)) : 0;
   const Real4 ma = wide(material.ambient), md = wide(material.diffuse), ms = wide(material.specular);
   const Real4 la = wide(light.ambient), ld = wide(light.diffuse), ls = wide(light.specular);
   for (size_t k = 0; k < 3; ++k) {
@@ -80,7 +84,7 @@ Real4 light_side(const raster::DrawState& state, const raster::Material& materia
     if (light.enabled) add_light(state, light, material, v, n, sums);
   }
   margin = sums.margin;
-  Real4 result{sums.color[0], sums.color[1], sums.color[2], material.diffuse.a};
+  Real4 result{sums.color[0], sums.color[1], sums.color[2], real(material.diffuse.a)};
   for (long double& c : result) c = c < 0 ? 0 : c > 1 ? 1 : c;
   return result;
 }
@@ -90,14 +94,15 @@ Real4 light_side(const raster::DrawState& state, const raster::Material& materia
 Real4 eye_position(const raster::DrawState& state, const Real4& p) {
   const auto& m = state.eye_from_object;
   Real4 eye;
-  for (size_t r = 0; r < 4; ++r) eye[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r] * p[3];
+  for (size_t r = 0; r < 4; ++r)
+    eye[r] = real(m[r]) * p[0] + real(m[4 + r]) * p[1] + real(m[8 + r]) * p[2] + real(m[12 + r]) * p[3];
   return eye;
 }
 
 Real3 eye_normal(const raster::DrawState& state, const Real3& n) {
   const auto& m = state.normal_from_object;
   Real3 eye;
-  for (size_t r = 0; r < 3; ++r) eye[r] = m[r] * n[0] + m[3 + r] * n[1] + m[6 + r] * n[2];
+  for (size_t r = 0; r < 3; ++r) eye[r] = real(m[r]) * n[0] + real(m[3 + r]) * n[1] + real(m[6 + r]) * n[2];
   return state.normalize ? unit(eye) : eye;
 }
 
@@ -123,7 +128,7 @@ Real4 generate(const raster::DrawState& state, const Real4& position, const Real
   for (size_t k = 0; k < 4; ++k) {
     const raster::TexGenCoord& coord = state.tex_gen.coord[k];
     const auto plane = [](const std::array<double, 4>& p, const Real4& at) {
-      return p[0] * at[0] + p[1] * at[1] + p[2] * at[2] + p[3] * at[3];
+      return real(p[0]) * at[0] + real(p[1]) * at[1] + real(p[2]) * at[2] + real(p[3]) * at[3];
     };
     if (coord.mode == raster::TexGenMode::object_linear) result[k] = plane(coord.object_plane, position);
     if (coord.mode == raster::TexGenMode::eye_linear) result[k] = plane(coord.eye_plane, v);

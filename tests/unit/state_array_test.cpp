@@ -327,7 +327,7 @@ TEST_F(ArrayTest, NormalsAndEdgeFlags) {
   op::edge_flag_pointer(*context, 2, flags.data());
   const GLushort near_indices[] = {5, 4, 7}, far_indices[] = {5, 2999, 4};
   for (bool arrays : {false, true}) {
-    for (GLenum name : {GL_NORMAL_ARRAY, GL_EDGE_FLAG_ARRAY}) {
+    for (GLenum name : std::initializer_list<GLenum>{GL_NORMAL_ARRAY, GL_EDGE_FLAG_ARRAY}) {
       (arrays ? op::enable_client_state : op::disable_client_state)(*context, name);
     }
     for (GLboolean flag : {GLboolean{1}, GLboolean{0}}) {

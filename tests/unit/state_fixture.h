@@ -66,7 +66,7 @@ inline Snapshot take_snapshot(const Context& context) {
     snapshot.rows[row.name] = values;
   }
   for (GLenum coord = GL_S; coord <= GL_Q; ++coord) {
-    for (GLenum pname : {GL_TEXTURE_GEN_MODE, GL_OBJECT_PLANE, GL_EYE_PLANE}) {
+    for (GLenum pname : std::initializer_list<GLenum>{GL_TEXTURE_GEN_MODE, GL_OBJECT_PLANE, GL_EYE_PLANE}) {
       double values[4] = {};
       op::get_tex_gendv(const_cast<Context&>(context), coord, pname, values);
       snapshot.rows[coord << 16 | pname].assign(values, values + 4);

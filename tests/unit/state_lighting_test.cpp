@@ -45,7 +45,7 @@ TEST_F(LightingTest, InitialValuesAreTheSpecs) {
     EXPECT_EQ(light(GL_LIGHT0 + i, GL_LINEAR_ATTENUATION)[0], 0);
     EXPECT_EQ(light(GL_LIGHT0 + i, GL_QUADRATIC_ATTENUATION)[0], 0);
   }
-  for (GLenum face : {GL_FRONT, GL_BACK}) {
+  for (GLenum face : std::initializer_list<GLenum>{GL_FRONT, GL_BACK}) {
     EXPECT_EQ(material(face, GL_AMBIENT), (Four{0.2f, 0.2f, 0.2f, 1}));
     EXPECT_EQ(material(face, GL_DIFFUSE), (Four{0.8f, 0.8f, 0.8f, 1}));
     EXPECT_EQ(material(face, GL_SPECULAR), (Four{0, 0, 0, 1}));
