@@ -63,22 +63,6 @@ uint32_t vertices_of_each(Primitive mode) {
   }
 }
 
-void skip_vertices(AttributeStream& stream, uint32_t count) {
-  if (stream.data != nullptr) stream.data = static_cast<const std::byte*>(stream.data) + count * stream.stride;
-}
-
-// The vertices [lowest, highest] of a batch, as one of their own.
-VertexBatch part_of(VertexBatch batch, uint32_t lowest, uint32_t highest) {
-  skip_vertices(batch.position, lowest);
-  skip_vertices(batch.color, lowest);
-  skip_vertices(batch.tex_coord, lowest);
-  skip_vertices(batch.normal, lowest);
-  if (batch.edge_flag != nullptr) batch.edge_flag += lowest;
-  if (batch.material_index != nullptr) batch.material_index += lowest;
-  batch.count = highest - lowest + 1;
-  return batch;
-}
-
 Rect draw_window(const DrawState& state, const Framebuffer::Impl& fb) {
   const Rect whole{0, 0, fb.width, fb.height};
   return state.raster.scissor_test ? intersect(whole, state.raster.scissor) : whole;
@@ -255,7 +239,7 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
       for (uint32_t i = 0; i < part.index_count; ++i) part_indices[i] = indices[i] - lowest;
       part.indices = part_indices.data();
     }
-    part.batch = part_of(packet.batch, lowest, highest);
+    part.batch = part_of(packet.batch, lowest, highest - lowest + 1);
     draw_part(part, layout, program_for(packet.state, layout));  // executing a full pass drops the program
   }
 }

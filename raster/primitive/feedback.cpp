@@ -174,25 +174,14 @@ void transform(const std::array<double, 16>& m, const double (&v)[4], double (&o
     out[r] = ((m[r] * v[0] + m[4 + r] * v[1]) + m[8 + r] * v[2]) + m[12 + r] * v[3];
 }
 
-void skip_vertices(AttributeStream& stream, uint32_t count) {
-  if (stream.data != nullptr)
-    stream.data = static_cast<const std::byte*>(stream.data) + count * stream.stride;
-}
-
 void copy(const Color& color, double (&out)[4]) {
   out[0] = double(color.r), out[1] = double(color.g), out[2] = double(color.b), out[3] = double(color.a);
 }
 
 // One vertex at a time, and all that it has.
 void Feedback::shade_attributes(uint32_t index, Vertex& out) const {
-  VertexBatch one = packet_.batch;
-  skip_vertices(one.position, index);
-  skip_vertices(one.color, index);
-  skip_vertices(one.tex_coord, index);
-  skip_vertices(one.normal, index);
-  if (one.material_index != nullptr) one.material_index += index;
-  one.count = 1;
-  const VertexAttributes attributes = raster::shade_attributes(state_, one, packet_.materials);
+  VertexAttributes attributes;
+  raster::shade_attributes(state_, part_of(packet_.batch, index, 1), packet_.materials, {&attributes, 1});
   copy(attributes.color, out.front);
   copy(attributes.back_color, out.back);
   for (int i = 0; i < 4; ++i) out.tex_coord[i] = double(attributes.tex_coord[i]);

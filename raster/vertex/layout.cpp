@@ -52,7 +52,8 @@ bool is_lit_alike(const DrawState& state, const VertexBatch& batch) {
 void choose_lit_color(const DrawState& state, const VertexBatch& batch, VertexLayout& layout) {
   const bool two_sided = state.lighting.two_sided;
   if (is_lit_alike(state, batch)) {
-    const VertexAttributes first = shade_attributes(state, batch);
+    VertexAttributes first;
+    shade_attributes(state, batch, {}, {&first, 1});
     layout.constant_color = first.color;
     if (!two_sided || first.color == first.back_color) return;
   }
@@ -82,6 +83,16 @@ bool is_projective(const DrawState& state, const AttributeStream& stream, uint32
 }
 
 }  // namespace
+
+VertexBatch part_of(VertexBatch batch, uint32_t first, uint32_t count) {
+  for (AttributeStream* stream : {&batch.position, &batch.color, &batch.tex_coord, &batch.normal}) {
+    if (stream->data) stream->data = element(*stream, first);
+  }
+  if (batch.edge_flag) batch.edge_flag += first;
+  if (batch.material_index) batch.material_index += first;
+  batch.count = count;
+  return batch;
+}
 
 VertexLayout choose_layout(const DrawState& state, const VertexBatch& batch) {
   VertexLayout layout;

@@ -218,7 +218,8 @@ HWY_INLINE float bounded_double(double v) {
   return v < 0 ? -kMaxTexCoord : 0.0f;
 }
 
-// clang-format off: each uses what stands in those before it
+// Each uses what stands in those before it.
+// clang-format off
 #include "raster/vertex/power.inl"
 #include "raster/vertex/lighting.inl"
 #include "raster/vertex/eye_space.inl"
@@ -414,8 +415,16 @@ void prepare_effects(const DrawState& state, const VertexBatch& batch,
 
 namespace {
 
+// Where vertices go; `first` and `count` say which.
+struct Target {
+  const VertexLayout& layout;
+  void* records;
+  uint16_t* outcodes;
+  ClipVertex* clip;
+};
+
 void run_job(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
-             int tex_coord_count, uint32_t first, uint32_t count, ShadedVertices& out) {
+             int tex_coord_count, uint32_t first, uint32_t count, const Target& target) {
   ShadeJob job{};
   std::memcpy(job.m, state.clip_from_object.data(), sizeof job.m);
   job.window = make_window_transform(state.viewport);
@@ -425,48 +434,60 @@ void run_job(const DrawState& state, const VertexBatch& batch, std::span<const M
   job.position = stream_ref(batch.position, kDefaultCoord);
   job.color = stream_ref(batch.color, kDefaultColor);
   job.tex_coord = stream_ref(batch.tex_coord, kDefaultCoord);
-  job.color_offset = byte_offset(out.layout.color);
-  job.back_color_offset = byte_offset(out.layout.back_color);
-  job.fog_offset = byte_offset(out.layout.fog);
-  job.tex_coord_offset = byte_offset(out.layout.tex_coord);
-  job.records = reinterpret_cast<unsigned char*>(out.records);
-  job.record_stride = out.layout.stride();
-  job.outcodes = out.outcodes.data();
-  job.clip = out.clip.data();
+  job.color_offset = byte_offset(target.layout.color);
+  job.back_color_offset = byte_offset(target.layout.back_color);
+  job.fog_offset = byte_offset(target.layout.fog);
+  job.tex_coord_offset = byte_offset(target.layout.tex_coord);
+  job.records = static_cast<unsigned char*>(target.records);
+  job.record_stride = target.layout.stride();
+  job.outcodes = target.outcodes;
+  job.clip = target.clip;
   LightingJob lighting;
-  if (calls_for_effects(state, out.layout))
-    prepare_effects(state, batch, materials, out.layout, job, lighting);
+  if (calls_for_effects(state, target.layout)) {
+    prepare_effects(state, batch, materials, target.layout, job, lighting);
+  }
   vertex_kernels().shade(job, first, count);
+}
+
+// A record of all there is.
+struct FullRecord {
+  VertexHead head;
+  float color[4], tex_coord[4], fog, back_color[4];
+};
+static_assert(sizeof(FullRecord) == sizeof(VertexHead) + 14 * sizeof(float));  // 13, and what aligns the next
+
+VertexAttributes attributes_of(const FullRecord& r, bool two_sided) {
+  const auto color_of = [](const float(&c)[4]) { return Color{c[0], c[1], c[2], c[3]}; };
+  VertexAttributes out{color_of(r.color), color_of(two_sided ? r.back_color : r.color), {}, r.fog};
+  std::memcpy(out.tex_coord, r.tex_coord, sizeof r.tex_coord);
+  return out;
 }
 
 }  // namespace
 
 void shade_vertices(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
                     uint32_t first, uint32_t count, ShadedVertices& out) {
-  run_job(state, batch, materials, out.layout.projective ? 3 : 2, first, count, out);
+  run_job(state, batch, materials, out.layout.projective ? 3 : 2, first, count,
+          {out.layout, out.records, out.outcodes.data(), out.clip.data()});
 }
 
-VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& batch,
-                                  std::span<const MaterialPair> materials) {
-  struct {
-    VertexHead head;
-    float color[4], tex_coord[4], fog, back_color[4];
-  } record;
-  ShadedVertices one;
-  one.layout.color = 0;
-  one.layout.tex_coord = 4;
-  one.layout.fog = 8;
-  one.layout.back_color = one.layout.attribute_count = 9;
-  one.records = reinterpret_cast<std::byte*>(&record);
-  one.count = 1;
-  one.outcodes.resize(1);
-  one.clip.resize(1);
-  run_job(state, batch, materials, 4, 0, 1, one);
-  const auto color_of = [](const float(&c)[4]) { return Color{c[0], c[1], c[2], c[3]}; };
-  VertexAttributes result{color_of(record.color), color_of(record.color), {}, record.fog};
-  std::memcpy(result.tex_coord, record.tex_coord, sizeof result.tex_coord);
-  if (state.lighting.enabled && state.lighting.two_sided) result.back_color = color_of(record.back_color);
-  return result;
+void shade_attributes(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
+                      std::span<VertexAttributes> out) {
+  VertexLayout layout;
+  layout.color = 0;
+  layout.tex_coord = 4;
+  layout.fog = 8;
+  layout.back_color = layout.attribute_count = 9;
+  const bool two_sided = state.lighting.enabled && state.lighting.two_sided;
+  FullRecord records[kVertexGroup];
+  uint16_t outcodes[kVertexGroup];
+  ClipVertex clip[kVertexGroup];
+  for (size_t first = 0; first < out.size(); first += kVertexGroup) {
+    const size_t count = std::min<size_t>(kVertexGroup, out.size() - first);
+    run_job(state, part_of(batch, uint32_t(first), uint32_t(count)), materials, 4, 0, uint32_t(count),
+            {layout, records, outcodes, clip});
+    for (size_t i = 0; i < count; ++i) out[first + i] = attributes_of(records[i], two_sided);
+  }
 }
 
 void power(const float* x, const float* s, float* out, size_t count) {

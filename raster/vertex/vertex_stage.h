@@ -8,6 +8,9 @@
 
 namespace halfspace::raster {
 
+// The vertices [first, first + count) of a batch, as one of their own.
+VertexBatch part_of(VertexBatch batch, uint32_t first, uint32_t count);
+
 // The layout `batch` needs under `state`: colour only if it varies, texture coordinates only if a texture is
 // on, q only if it can differ from 1.
 VertexLayout choose_layout(const DrawState& state, const VertexBatch& batch);
@@ -21,13 +24,14 @@ inline void shade_vertices(const DrawState& state, const VertexBatch& batch, uin
   shade_vertices(state, batch, {}, first, count, out);
 }
 
-// The first vertex's attributes, whatever the draw state would ask for (glRasterPos, spec 2.13).
+// A vertex's attributes, whatever the draw state would ask for (raster position, feedback; spec 2.13, 5.3).
 struct VertexAttributes {
   Color color, back_color;  // lit if lighting is on; in [0, 1]
   float tex_coord[4];       // s t r q, generated and through the texture matrix
   float eye_distance;       // |z_e|
 };
-VertexAttributes shade_attributes(const DrawState& state, const VertexBatch& batch,
-                                  std::span<const MaterialPair> materials = {});
+// Of vertices 0 .. out.size() - 1. materials: DrawPacket::materials.
+void shade_attributes(const DrawState& state, const VertexBatch& batch,
+                      std::span<const MaterialPair> materials, std::span<VertexAttributes> out);
 
 }  // namespace halfspace::raster
