@@ -1270,6 +1270,114 @@ HALFSPACE_ENTRY void GLAPIENTRY glGetPixelMapusv(GLenum map, GLushort* values) {
   HALFSPACE_CALL(get_pixel_mapusv, map, values);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos2s(GLshort x, GLshort y) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos2sv(const GLshort* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos2i(GLint x, GLint y) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos2iv(const GLint* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos2f(GLfloat x, GLfloat y) {
+  HALFSPACE_CALL(raster_pos, x, y, 0.0f, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos2fv(const GLfloat* v) {
+  HALFSPACE_CALL(raster_pos, v[0], v[1], 0.0f, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos2d(GLdouble x, GLdouble y) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos2dv(const GLdouble* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos3s(GLshort x, GLshort y, GLshort z) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z), 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos3sv(const GLshort* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]), 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos3i(GLint x, GLint y, GLint z) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z), 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos3iv(const GLint* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]), 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos3f(GLfloat x, GLfloat y, GLfloat z) {
+  HALFSPACE_CALL(raster_pos, x, y, z, 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos3fv(const GLfloat* v) {
+  HALFSPACE_CALL(raster_pos, v[0], v[1], v[2], 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos3d(GLdouble x, GLdouble y, GLdouble z) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z), 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos3dv(const GLdouble* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]), 1.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4s(GLshort x, GLshort y, GLshort z, GLshort w) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z), static_cast<GLfloat>(w));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4sv(const GLshort* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]), static_cast<GLfloat>(v[3]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4i(GLint x, GLint y, GLint z, GLint w) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z), static_cast<GLfloat>(w));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4iv(const GLint* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]), static_cast<GLfloat>(v[3]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4f(GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
+  HALFSPACE_CALL(raster_pos, x, y, z, w);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4fv(const GLfloat* v) {
+  HALFSPACE_CALL(raster_pos, v[0], v[1], v[2], v[3]);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4d(GLdouble x, GLdouble y, GLdouble z, GLdouble w) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z), static_cast<GLfloat>(w));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4dv(const GLdouble* v) {
+  HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]), static_cast<GLfloat>(v[3]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glDrawPixels(GLsizei width, GLsizei height, GLenum format, GLenum type, const GLvoid* pixels) {
+  HALFSPACE_CALL(draw_pixels, width, height, format, type, pixels);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glBitmap(GLsizei width, GLsizei height, GLfloat xorig, GLfloat yorig, GLfloat xmove, GLfloat ymove, const GLubyte* bitmap) {
+  HALFSPACE_CALL(bitmap, width, height, xorig, yorig, xmove, ymove, bitmap);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glCopyPixels(GLint x, GLint y, GLsizei width, GLsizei height, GLenum type) {
+  HALFSPACE_CALL(copy_pixels, x, y, width, height, type);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glReadPixels(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format, GLenum type, GLvoid* pixels) {
   HALFSPACE_CALL(read_pixels, x, y, width, height, format, type, pixels);
 }

@@ -11,11 +11,14 @@
 #include "raster/arena.h"
 #include "raster/fragment/program.h"
 #include "raster/primitive/assembly.h"
+#include "raster/primitive/pixel_rect.h"
 #include "raster/primitive/shape_assembly.h"
+#include "raster/primitive/window_box.h"
 #include "raster/surface/clear.h"
 #include "raster/surface/resolve.h"
 #include "raster/thread_pool.h"
 #include "raster/tile/tile_worker.h"
+#include "raster/vertex/shade_point.h"
 #include "raster/vertex/vertex_stage.h"
 
 namespace halfspace::raster {
@@ -49,7 +52,7 @@ bool fuses(const DeviceOptions& options) {
 bool same_layout(const VertexLayout& a, const VertexLayout& b) {
   return a.attribute_count == b.attribute_count && a.color == b.color && a.tex_coord == b.tex_coord &&
          a.projective == b.projective && a.fog == b.fog && a.back_color == b.back_color && a.coverage == b.coverage &&
-         a.constant_color == b.constant_color;
+         a.constant_color == b.constant_color && a.given_color == b.given_color && a.given_depth == b.given_depth;
 }
 
 // Vertices a primitive of its own has, or 0 for modes whose primitives share vertices.
@@ -90,6 +93,7 @@ struct Device::Impl {
   bool pending_stencil = false;  // and whether the stencil plane may have been written
   bool last_is_open = false;  // the last pending segment takes further small draws
   std::deque<DrawRecord> draws;
+  std::deque<PixelImage> images;
   std::deque<PipelineProgram> programs;
   std::shared_ptr<const DrawState> program_state;
   VertexLayout program_layout;
@@ -111,9 +115,13 @@ struct Device::Impl {
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
   void find_clip_distances(const VertexBatch& batch, DrawRecord& record);
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
+  void need_planes(const DrawState& state, const PipelineProgram& program);
   void draw(const DrawPacket& packet);
   void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout);
   void draw_part(const DrawPacket& packet, const VertexLayout& layout, const PipelineProgram& program);
+  void execute_if_full();
+  void draw_pixels(const PixelPacket& packet);
+  bool prepare_pixels(const PixelPacket& packet, const PipelineProgram& program);
   void execute(const LinearImage* image, ColorPlane plane = kBackPlane);
   void discard();
   bool covers_pending(const ClearCommand& command) const;
@@ -199,6 +207,15 @@ void Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, u
   });
 }
 
+// Asks the framebuffer for the planes that a draw works on.
+void Device::Impl::need_planes(const DrawState& state, const PipelineProgram& program) {
+  if (program.writes_color) {
+    target->need_color(state.color_targets);
+    pending_targets |= state.color_targets;
+  }
+  if (program.reads_depth) target->need_depth();
+}
+
 void Device::Impl::draw(const DrawPacket& packet) {
   if (target == nullptr || packet.batch.count == 0 || primitive_count(packet.primitive, packet.index_count) == 0) return;
   const DrawState& state = *packet.state;
@@ -211,11 +228,7 @@ void Device::Impl::draw(const DrawPacket& packet) {
   statistics.vertices += packet.batch.count;
   const Rect reach = shape.general ? draw_window(state, *target) : draw_bounds(state, *target);
   if (program.draws_nothing || reach.empty()) return;
-  if (program.writes_color) {
-    target->need_color(state.color_targets);
-    pending_targets |= state.color_targets;
-  }
-  if (program.reads_depth) target->need_depth();
+  need_planes(state, program);
   draw_in_parts(packet, layout);
 }
 
@@ -261,11 +274,53 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.vertices.outcodes.swap(outcodes);
   record.vertices.clip.swap(clip);
   record.clip_distances = nullptr, record.clip_codes = record.edge_flags = nullptr;
+  execute_if_full();
+}
+
+void Device::Impl::execute_if_full() {
   size_t pending_primitives = 0;
   for (const Segment* segment : pending) pending_primitives += segment->primitives.size();
   const bool many_texels = textures.size() > 1 && texture_bytes > kMaxPendingTextureBytes;
   if (arena.bytes_in_use() > kMaxPendingBytes || many_texels || pending_primitives > kMaxPendingPrimitives)
     execute(nullptr);
+}
+
+// Asks the framebuffer for what the packet draws on; false if it draws nothing.
+bool Device::Impl::prepare_pixels(const PixelPacket& packet, const PipelineProgram& program) {
+  if (packet.kind == PixelKind::stencil) {
+    if (packet.stencil_mask == 0) return false;
+    target->need_stencil();
+    pending_stencil = true;
+    return true;
+  }
+  if (program.draws_nothing) return false;
+  need_planes(*packet.state, program);
+  return true;
+}
+
+// A small image waits with the draws around it; a large one is drawn at once, and need not be copied.
+void Device::Impl::draw_pixels(const PixelPacket& packet) {
+  if (target == nullptr) return;
+  const VertexLayout layout = pixel_layout(packet);
+  const PipelineProgram& program = program_for(packet.state, layout);
+  if (!prepare_pixels(packet, program)) return;
+  const Rect limit = draw_window(*packet.state, *target);
+  const bool keep = is_small(packet);
+  PixelImage& image = images.emplace_back();
+  if (!lay_out_pixels(packet, layout, limit, keep, arena, image)) return;
+  ++statistics.draws;
+  DrawRecord& record = draws.emplace_back();
+  record.state = packet.state;
+  record.bounds = image.bounds;
+  record.program = &program;
+  record.vertices.layout = layout;
+  record.image = &image;
+  Segment& segment = open_segment();
+  segment.draws.push_back({static_cast<uint32_t>(segment.primitives.size()), &record});
+  bin_box(segment, tile_box(image.bounds), static_cast<uint32_t>(segment.primitives.size()));
+  segment.primitives.push_back({});
+  if (keep) execute_if_full();
+  else execute(nullptr);
 }
 
 void Device::Impl::discard() {
@@ -279,6 +334,7 @@ void Device::Impl::discard() {
   pending_stencil = false;
   last_is_open = false;
   draws.clear();
+  images.clear();
   programs.clear();
   program_state.reset();
   textures.clear();
@@ -337,6 +393,10 @@ void Device::clear(const ClearCommand& command) {
 }
 
 void Device::draw(const DrawPacket& packet) { impl_->draw(packet); }
+void Device::draw_pixels(const PixelPacket& packet) { impl_->draw_pixels(packet); }
+ShadedPoint Device::shade_point(const DrawState& state, const VertexBatch& batch) {
+  return raster::shade_point(state, batch);
+}
 void Device::finish(const LinearImage* image, ColorPlane plane) { impl_->execute(image, plane); }
 const DeviceStatistics& Device::statistics() const { return impl_->statistics; }
 

@@ -69,6 +69,7 @@ struct Group {
 using AttributeGroups = std::tuple<                                                             //
     Group<GL_COLOR_BUFFER_BIT, SavedColorBuffer>,                                               //
     Group<GL_CURRENT_BIT, Whole<&Context::current>, 0>,                                         //
+    Group<GL_CURRENT_BIT, Whole<&Context::raster_position>, 0>,                                 //
     Group<GL_DEPTH_BUFFER_BIT, Whole<&Context::depth_buffer>>,                                  //
     Group<GL_ENABLE_BIT, SavedEnables>,                                                         //
     Group<GL_EVAL_BIT, Whole<&Context::evaluator>, 0>,                                          //

@@ -27,6 +27,7 @@
 #include "state/point.h"
 #include "state/polygon.h"
 #include "state/render_mode.h"
+#include "state/raster_position.h"
 #include "state/scissor.h"
 #include "state/selection.h"
 #include "state/tex_gen.h"
@@ -73,6 +74,7 @@ struct Context {
   PixelStoreState pixel_store;
   PixelTransferState pixel_transfer;
   PixelMapState pixel_map;
+  RasterPositionState raster_position;
   VertexArrayState vertex_array;
   ImmediateState immediate;
   AttributeStackState attribute_stack;

@@ -30,6 +30,7 @@ std::vector<GetRow> collect_rows() {
            pixel_store_get_rows(),      //
            pixel_transfer_get_rows(),   //
            pixel_map_get_rows(),        //
+           raster_position_get_rows(),  //
            attribute_stack_get_rows(),  //
            list_get_rows(),             //
            evaluator_get_rows(),        //

@@ -64,5 +64,6 @@ std::span<const GetRow> pixel_map_get_rows();
 std::span<const GetRow> render_mode_get_rows();
 std::span<const GetRow> selection_get_rows();
 std::span<const GetRow> feedback_get_rows();
+std::span<const GetRow> raster_position_get_rows();
 
 }  // namespace halfspace::state

@@ -58,12 +58,6 @@ constexpr GetRow kRows[] = {
     FIXED(GL_RGBA_MODE, boolean, 1),
     FIXED(GL_INDEX_MODE, boolean, 0),
     // initial values
-    FIXED_4(GL_CURRENT_RASTER_COLOR, normalized, 1, 1, 1, 1),
-    FIXED_4(GL_CURRENT_RASTER_POSITION, real, 0, 0, 0, 1),
-    FIXED_4(GL_CURRENT_RASTER_TEXTURE_COORDS, real, 0, 0, 0, 1),
-    FIXED(GL_CURRENT_RASTER_DISTANCE, real, 0),
-    FIXED(GL_CURRENT_RASTER_INDEX, real, 1),
-    FIXED(GL_CURRENT_RASTER_POSITION_VALID, boolean, 1),
     FIXED_4(GL_FOG_COLOR, normalized, 0, 0, 0, 0),
     FIXED(GL_FOG_INDEX, real, 0),
     FIXED(GL_FOG_DENSITY, real, 1),

@@ -127,6 +127,16 @@ void pixel_mapusv(Context& context, GLenum map, GLsizei size, const GLushort* va
   Compiled<&OperationTable::pixel_mapusv>::execute(context, map, size, values);
 }
 
+void draw_pixels(Context& context, GLsizei width, GLsizei height, GLenum format, GLenum type, const GLvoid* pixels) {
+  compiling(context, [&] { Compiled<&OperationTable::draw_pixels>::record_image(context, width, height, format, type, keep_image(context, width, height, format, type, pixels)); });
+  Compiled<&OperationTable::draw_pixels>::execute(context, width, height, format, type, pixels);
+}
+
+void bitmap(Context& context, GLsizei width, GLsizei height, GLfloat x_origin, GLfloat y_origin, GLfloat x_move, GLfloat y_move, const GLvoid* bitmap) {
+  compiling(context, [&] { Compiled<&OperationTable::bitmap>::record_image(context, width, height, x_origin, y_origin, x_move, y_move, keep_image(context, width, height, GL_COLOR_INDEX, GL_BITMAP, bitmap)); });
+  Compiled<&OperationTable::bitmap>::execute(context, width, height, x_origin, y_origin, x_move, y_move, bitmap);
+}
+
 }  // namespace
 }  // namespace compile
 
@@ -284,6 +294,10 @@ const OperationTable kCompileTable = {
     .get_pixel_mapfv = Compiled<&OperationTable::get_pixel_mapfv>::pass,
     .get_pixel_mapuiv = Compiled<&OperationTable::get_pixel_mapuiv>::pass,
     .get_pixel_mapusv = Compiled<&OperationTable::get_pixel_mapusv>::pass,
+    .raster_pos = Compiled<&OperationTable::raster_pos>::compile,
+    .draw_pixels = compile::draw_pixels,
+    .bitmap = compile::bitmap,
+    .copy_pixels = Compiled<&OperationTable::copy_pixels>::compile,
     .read_pixels = Compiled<&OperationTable::read_pixels>::pass,
     .finish = Compiled<&OperationTable::finish>::pass,
     .flush = Compiled<&OperationTable::flush>::pass,

@@ -19,18 +19,21 @@ enum class PixelKind : uint8_t {
             // stage runs
 };
 
-// Element (i, j), j up, covers the pixels whose centres lie in the rectangle between (x + zoom_x * i, y +
-// zoom_y * j) and (x + zoom_x * (i + 1), y + zoom_y * (j + 1)), left and lower edges in, for either sign of
-// the zooms. Nothing is kept of the arrays once Device::draw_pixels has returned.
+// Element (i, j) of the whole image, j up, covers the pixels whose centres lie in the rectangle between (x + zoom_x * i,
+// y + zoom_y * j) and (x + zoom_x * (i + 1), y + zoom_y * (j + 1)), left and lower edges in, for either sign of the
+// zooms. A packet brings a part of the image; parts of one image meet without gap or overlap. Nothing is kept of the
+// arrays once Device::draw_pixels has returned.
 struct PixelPacket {
   std::shared_ptr<const DrawState> state;
   PixelKind kind = PixelKind::color;
-  int width = 0, height = 0;  // elements
-  double x = 0, y = 0;        // window coordinates of the lower left corner
+  int width = 0, height = 0;          // elements
+  int first_column = 0, first_row = 0;  // of the whole image: i and j of the packet's element 0
+  double x = 0, y = 0;        // window coordinates of the image's corner
   double zoom_x = 1, zoom_y = 1;
   const float* color = nullptr;     // 4 floats an element, r g b a in [0, 1]
   const uint32_t* depth = nullptr;  // 0 .. 2^24 - 1
   const uint8_t* stencil = nullptr;
+  uint8_t stencil_mask = 0xff;  // bits to write
   const uint8_t* bits = nullptr;  // rows of row_bytes bytes, leftmost element in the highest bit
   size_t row_elements = 0;        // elements from row to row of color, depth, stencil
   size_t row_bytes = 0;           // of bits

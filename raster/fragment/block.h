@@ -56,6 +56,7 @@ struct alignas(64) BlockContext {
   double dx, dy;          // centre of the block's lowest-left pixel minus the anchor
   uint64_t live;          // bit (y % 8) * 8 + x % 8
   uint32_t* depth;        // the block's 64 pixels
+  const uint32_t* given_depth;  // where fragments bring their own: 24 bits each
   uint32_t* color;        // rgba8; with a queue, of the tile
   float* color_planes;    // rgba32f
   const float* coverage;  // of the block's pixels, in [0, 1]; where the program asks for it

@@ -138,10 +138,19 @@ struct Entry {
   KernelPair kernels;
 };
 
+// Stages that look at a fragment's depth say so.
+template <class Body>
+concept TakesDepth = requires { Body::kTakesDepth; };
+
 template <StageId... ids>
 constexpr Entry MakeEntry() {
-  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>, nullptr}};
+  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>, nullptr, nullptr}};
   if constexpr ((BodyOf<ids>::Type::kPacks && ...)) entry.kernels.packed = &RunStages<PackedLanes, ids...>;
+  if constexpr (sizeof...(ids) == 1) {
+    entry.kernels.given_depth = entry.kernels.block;
+    if constexpr ((TakesDepth<typename BodyOf<ids>::Type> && ...))
+      entry.kernels.given_depth = &RunStages<GivenDepthLanes, ids...>;
+  }
   return entry;
 }
 
@@ -163,7 +172,7 @@ KernelPair FindKernels(const StageId* ids, int length) {
     for (int i = 0; same && i < length; ++i) same = entry.ids[i] == ids[i];
     if (same) return entry.kernels;
   }
-  return {nullptr, nullptr};
+  return {nullptr, nullptr, nullptr};
 }
 
 }  // namespace HWY_NAMESPACE

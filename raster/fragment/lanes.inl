@@ -187,6 +187,25 @@ struct BlockLanes {
   }
 };
 
+// Depths that the fragments of an image bring along.
+struct GivenDepth {
+  const int32_t* values;
+  HWY_INLINE GivenDepth(const BlockContext& c, int) : values(reinterpret_cast<const int32_t*>(c.given_depth)) {}
+  HWY_INLINE VD At(int i) const {
+    VD v;
+    for (int p = 0; p < kDoubleParts; ++p) {
+      const hn::Rebind<int32_t, DD> ints;
+      v.part[p] = hn::PromoteTo(DD(), hn::LoadU(ints, values + i + p * kDoubleLanes));
+    }
+    return v;
+  }
+};
+
+// A block whose fragments bring their own depth; of planes in double, only the depth test's is asked for.
+struct GivenDepthLanes : BlockLanes {
+  using PlaneDouble = GivenDepth;
+};
+
 // Values that were evaluated when a fragment came in.
 struct PackedPlane {
   const float* values;

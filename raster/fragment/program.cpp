@@ -42,6 +42,11 @@ StageId color_stage(const DrawState& state, const VertexLayout& layout, unsigned
   return kSmooth[variant];
 }
 
+// The primary colour; that of a pixel rectangle is in its slots already.
+void add_color(const DrawState& state, const VertexLayout& layout, unsigned variant, StageList& list) {
+  if (!layout.given_color) list.add(color_stage(state, layout, variant));
+}
+
 StageId coord_stage(const VertexLayout& layout, unsigned variant) {
   using enum StageId;
   if (layout.projective) return (variant & kDouble) != 0 ? coord_projective_double : coord_projective;
@@ -95,7 +100,7 @@ bool is_white(const Color& c) { return c.r == 1 && c.g == 1 && c.b == 1 && c.a =
 // GL_MODULATE by constant white is GL_REPLACE; replacing everything needs no primary colour.
 void add_texture_stages(const DrawState& state, const VertexLayout& layout, unsigned variant, StageList& list) {
   const TextureView& view = *state.texture.view;
-  const bool white = layout.color < 0 && is_white(layout.constant_color);
+  const bool white = layout.color < 0 && !layout.given_color && is_white(layout.constant_color);
   const EnvMode mode = white && state.texture.env == EnvMode::modulate ? EnvMode::replace : state.texture.env;
   const StageId env = env_stage(mode, view.base_format, is_opaque(view));
   StageId coord = coord_stage(layout, variant);
@@ -107,7 +112,7 @@ void add_texture_stages(const DrawState& state, const VertexLayout& layout, unsi
   list.add(coord);
   if (needs_lambda(view)) list.add(layout.projective ? StageId::lambda_projective : StageId::lambda);
   add_lookup(view, state.accuracy, list);
-  if (env != StageId::replace_rgba) list.add(color);
+  if (env != StageId::replace_rgba && !layout.given_color) list.add(color);
   list.add(env);
 }
 
@@ -186,7 +191,7 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
     if (state.texture.view != nullptr && layout.tex_coord >= 0)
       add_texture_stages(state, layout, variant, list);
     else
-      list.add(color_stage(state, layout, variant));
+      add_color(state, layout, variant, list);
   }
   if (layout.coverage && (writes_color(state) || alpha_test)) list.add(StageId::coverage);
   if (alpha_test) {
@@ -205,6 +210,8 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
 PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse) {
   PipelineProgram program;
   program.params = make_params(state, layout, format);
+  const bool fuses = fuse && !layout.given_depth;
+  BlockFunction KernelPair::*const kind = layout.given_depth ? &KernelPair::given_depth : &KernelPair::block;
   program.writes_color = writes_color(state);
   program.plane = state.color_targets == kFrontPlane ? 1 : 0;
   program.both_planes = program.writes_color && state.color_targets == (kBackPlane | kFrontPlane);
@@ -212,10 +219,10 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
     const StageList list = list_stages(state, layout, format, variant);
     BlockProgram& blocks = program.variants[variant];
     if (program.both_planes) {
-      cover(list, 0, list.tail, fuse, &KernelPair::block, blocks);
+      cover(list, 0, list.tail, fuses, kind, blocks);
       blocks.head = blocks.count;
     }
-    cover(list, program.both_planes ? list.tail : 0, list.count, fuse, &KernelPair::block, blocks);
+    cover(list, program.both_planes ? list.tail : 0, list.count, fuses, kind, blocks);
   }
   const bool depth = needs_depth(state.depth);
   program.depth = state.depth;
@@ -230,9 +237,10 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
   const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
   program.reads_depth = depth;
   program.writes_depth = depth && state.depth.write;
-  program.rejects_deeper = depth && lowers;
+  const bool one_plane = !layout.given_depth;  // fragments lie on it, so that a block's depth can be told beforehand
+  program.rejects_deeper = depth && lowers && one_plane;
   program.depth_may_grow = program.writes_depth && !lowers && func != CompareFunc::equal && func != CompareFunc::never;
-  program.depth_pass_lowers = program.writes_depth && lowers && !needs_alpha_test(state.alpha_test);
+  program.depth_pass_lowers = program.writes_depth && lowers && !needs_alpha_test(state.alpha_test) && one_plane;
   program.draws_nothing = (depth && func == CompareFunc::never) || (!program.writes_color && !program.writes_depth);
   return program;
 }

@@ -68,6 +68,7 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
 // `block` works on the rows of a block, `packed` on packed fragments (null where that cannot be).
 struct KernelPair {
   BlockFunction block, packed;
+  BlockFunction given_depth;  // of one stage only: where fragments bring their own depth
 };
 KernelPair find_kernels(const StageId* ids, int count);
 

@@ -50,6 +50,7 @@ struct PrimitiveRef {
 static_assert(sizeof(PrimitiveRef) == 16);
 
 struct PipelineProgram;  // raster/fragment/program.h
+struct PixelImage;       // raster/primitive/pixel_rect.h
 
 // A draw as the tiles see it. Lives until the pass is finished.
 struct DrawRecord {
@@ -65,6 +66,7 @@ struct DrawRecord {
   const uint8_t* clip_codes = nullptr;
   const uint8_t* edge_flags = nullptr;
   uint32_t stipple_start = 0;  // where the first line's stipple starts
+  const PixelImage* image = nullptr;  // fragments come from it; there are no vertices
 };
 
 // Primitives of one stretch of the command stream, in order, with their bins. Filled by one thread at a time.

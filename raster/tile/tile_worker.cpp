@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "raster/isa.h"
+#include "raster/primitive/pixel_rect.h"
 #include "raster/tile/cover_smooth.h"
 #include "raster/tile/coverage.h"
 
@@ -39,6 +40,7 @@ struct TileContext {
   SetupBatch setup;
   SetupInput input;
   Packer packer;
+  alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
 };
 
 // The plane's least (sign = -1) or greatest (sign = 1) depth over the pixel centres of the block.
@@ -222,6 +224,8 @@ void RunTriangle(TileContext& t, int lane) {
 
 #include "raster/tile/shapes.inl"
 
+#include "raster/tile/image.inl"
+
 void SelectDraw(TileContext& t, const DrawRecord& draw) {
   if (t.program != draw.program) FlushPacked(t);
   const Rect tile{t.x, t.y, t.x + kTileSize, t.y + kTileSize};
@@ -246,6 +250,11 @@ void RunSegment(TileContext& t, const Segment& segment) {
     const uint32_t end = draw + 1 < draw_count ? segment.draws.data()[draw + 1].first_primitive : ~0u;
     const DrawRecord& record = *segment.draws.data()[draw].draw;
     SelectDraw(t, record);
+    if (record.image != nullptr) {
+      RunImage(t, *record.image);
+      ++at;
+      continue;
+    }
     while (at < total && ids[at] < end) {
       int count = 0;
       while (count < kSetupLanes && at + static_cast<size_t>(count) < total && ids[at + static_cast<size_t>(count)] < end)

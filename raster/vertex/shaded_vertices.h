@@ -37,6 +37,8 @@ struct VertexLayout {
   int back_color = -1;
   bool coverage = false;   // fragments may cover their pixel in part: points, lines or polygons are smooth
   Color constant_color{1, 1, 1, 1};  // used (already clamped) when color == -1
+  // Pixel rectangles: each fragment brings its own colour, and its own depth.
+  bool given_color = false, given_depth = false;
   size_t stride() const { return sizeof(VertexHead) + ((size_t(float_count()) * 4 + 7) & ~size_t{7}); }
   // Which float is attribute `a`, on a front- or back-facing polygon.
   int place(int a, bool back) const {
