@@ -321,5 +321,54 @@ TEST(StippledPolygons, TakeTheWindowsPattern) {
   }
 }
 
+// The law: one image, whatever the instruction set and the number of threads; all of the shapes at once.
+TEST(Shapes, AreTheSameOnEveryLevelAndThreadCount) {
+  constexpr int kSize = 256;
+  const auto picture = [&](int threads) {
+    Canvas canvas(kSize, kSize, threads);
+    Random random(77);
+    for (int round = 0; round < 400; ++round) {
+      DrawState state = plain_state(200, 200, 20, 30);
+      state.depth = {true, CompareFunc::less_equal, true};
+      state.blend = {true, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
+      const auto chance = [&] { return random.integer(0, 2) == 0; };
+      state.line = {random.real(0.5f, 9), chance(), chance(), uint16_t(random.integer(0, 65535)),
+                    int(random.integer(1, 4))};
+      state.point = {random.real(0.5f, 20), chance()};
+      state.polygon.front = PolygonMode(random.integer(0, 2));
+      state.polygon.back = PolygonMode(random.integer(0, 2));
+      state.polygon.smooth = chance();
+      state.polygon.stipple = chance();
+      for (uint32_t& row : state.polygon.pattern) row = uint32_t(random.bits());
+      state.polygon.offset_fill = state.polygon.offset_line = chance();
+      state.polygon.offset_factor = random.real(-2, 2);
+      state.raster.flat_shading = chance();
+      if (chance()) state.clip_planes.enabled = uint8_t(random.integer(0, 63));
+      for (auto& plane : state.clip_planes.planes) {
+        for (double& p : plane) p = double(random.real(-1, 1));
+        plane[3] += 0.5;
+      }
+      std::vector<Vertex> v(12);
+      for (Vertex& vertex : v) {
+        vertex.w = random.real(-0.2f, 3);
+        vertex.x = random.real(-1.2f, 1.2f) * vertex.w, vertex.y = random.real(-1.2f, 1.2f) * vertex.w;
+        vertex.z = random.real(-1.2f, 1.2f) * vertex.w;
+        vertex.color = {random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
+      }
+      canvas.draw(state, Primitive(random.integer(0, 9)), v);
+    }
+    return canvas.read();
+  };
+  Picture first;
+  for (const std::string& isa : isa_levels()) {
+    IsaScope scope(isa);
+    for (int threads : {1, 4}) {
+      const Picture now = picture(threads);
+      if (first.rgba.empty()) first = now;
+      EXPECT_EQ(first_difference(first, now), "") << isa << ", " << threads << " threads";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::test

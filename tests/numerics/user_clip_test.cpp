@@ -75,17 +75,19 @@ TEST(UserClip, TwoSidesOfAPlaneMakeTheWholeExactlyOnce) {
 TEST(UserClip, WhatIsKeptIsAsItWas) {
   DrawState state = plain_state(kSize, kSize);
   state.depth.test = true;
-  std::vector<Vertex> v{snapped_vertex(300, 500, kSize, -0.7f, {1, 0, 0, 1}),
-                        snapped_vertex(31000, 2100, kSize, 0.3f, {0, 1, 0, 1}),
-                        snapped_vertex(9000, 32000, kSize, 0.8f, {0, 0, 1, 1})};
+  std::vector<Vertex> v = snapped_quad(0, 0, kSize * 256, kSize * 256, kSize);
+  for (size_t i = 0; i < 4; ++i) {
+    v[i].z = -0.7f + 0.4f * float(i);
+    v[i].color = {float(i) / 3, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.2f, 1};
+  }
   Canvas whole(kSize, kSize), cut(kSize, kSize);
-  whole.draw(state, Primitive::triangles, v);
+  whole.draw(state, Primitive::quads, v);
   state.clip_planes.enabled = 63;
   for (size_t i = 0; i < 6; ++i) {
     const double angle = double(i) * 1.0471975511965976;
     state.clip_planes.planes[i] = {std::cos(angle), std::sin(angle), 0, 0.5};
   }
-  cut.draw(state, Primitive::triangles, v);
+  cut.draw(state, Primitive::quads, v);
   const Picture a = whole.read(), b = cut.read();
   int kept = 0;
   for (int y = 0; y < kSize; ++y) {
@@ -176,6 +178,26 @@ TEST(PolygonMode, AnOutlineIsALineLoop) {
       EXPECT_EQ(first_difference(drawn(state, Primitive::quad_strip, strip), loops[1]), "");
     }
   }
+}
+
+// Spec 3.4.2.2, 3.5.4: each line of GL_LINES and each polygon starts the stipple anew.
+TEST(PolygonMode, StippleStartsAnew) {
+  DrawState state = adding_state();
+  state.line.stipple = true;
+  state.line.pattern = 0x3a5c;
+  state.line.repeat = 3;
+  state.polygon.front = state.polygon.back = PolygonMode::line;
+  const auto apart = [&](Primitive mode, const std::vector<Vertex>& v, size_t each) {
+    Canvas canvas(kSize, kSize);
+    for (size_t i = 0; i < v.size(); i += each) canvas.draw(state, mode, std::span(v).subspan(i, each));
+    return canvas.read();
+  };
+  const std::vector<Vertex> five = pentagon(), lines{five[0], five[1], five[2], five[3], five[4], five[0]};
+  const std::vector<Vertex> triangles{five[0], five[1], five[2], five[4], five[2], five[3]};
+  EXPECT_EQ(first_difference(drawn(state, Primitive::lines, lines), apart(Primitive::lines, lines, 2)), "");
+  EXPECT_EQ(first_difference(drawn(state, Primitive::triangles, triangles),
+                             apart(Primitive::triangles, triangles, 3)),
+            "");
 }
 
 // Spec 2.6.2: the edge that starts at a vertex whose flag is off is not drawn, but flags say nothing in

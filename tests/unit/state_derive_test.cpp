@@ -15,6 +15,8 @@ bool same(const DrawState& a, const DrawState& b) {
          a.raster.front_is_ccw == b.raster.front_is_ccw && a.raster.flat_shading == b.raster.flat_shading &&
          a.raster.scissor_test == b.raster.scissor_test && a.raster.scissor == b.raster.scissor &&
          a.depth == b.depth && a.alpha_test == b.alpha_test && a.blend == b.blend &&
+         a.point == b.point && a.line == b.line && a.polygon == b.polygon &&
+         a.clip_planes.enabled == b.clip_planes.enabled && a.clip_planes.planes == b.clip_planes.planes &&
          a.color_mask == b.color_mask && a.texture.view == b.texture.view && a.texture.env == b.texture.env &&
          a.texture.env_color == b.texture.env_color && a.texture.matrix == b.texture.matrix &&
          a.texture.matrix_is_identity == b.texture.matrix_is_identity && a.accuracy == b.accuracy;
@@ -23,7 +25,7 @@ bool same(const DrawState& a, const DrawState& b) {
 const double kMatrix[16] = {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 1, 2, 3, 1};
 const GLint kReplace[] = {GL_REPLACE};
 const GLfloat kEnvColor[] = {0.25f, 0.5f, 0.75f, 1};
-const GLubyte kTexels[4 * 4 * 4] = {255, 128};
+const GLubyte kTexels[128] = {255, 128};
 const GLint kNearest[] = {GL_NEAREST};
 const GLint kClamp[] = {GL_CLAMP};
 
@@ -58,6 +60,14 @@ const std::pair<const char*, std::function<void(Context&)>> kSetters[] = {
     {"texture pop", [](Context& c) { op::pop_matrix(c); }},
     {"viewport", [](Context& c) { op::viewport(c, 1, 2, 3, 4); }},
     {"depth_range", [](Context& c) { op::depth_range(c, 0.75, 0.25); }},
+    {"point_size", [](Context& c) { op::point_size(c, 3); }},
+    {"line_width", [](Context& c) { op::line_width(c, 3); }},
+    {"line_stipple", [](Context& c) { op::line_stipple(c, 3, 5); }},
+    {"polygon_mode", [](Context& c) { op::polygon_mode(c, GL_BACK, GL_LINE); }},
+    {"polygon_offset", [](Context& c) { op::polygon_offset(c, 3, 5); }},
+    {"polygon_stipple", [](Context& c) { op::polygon_stipple(c, kTexels); }},
+    {"clip_plane", [](Context& c) { op::clip_plane(c, GL_CLIP_PLANE1, kMatrix); }},
+    {"clip plane", [](Context& c) { op::enable(c, GL_CLIP_PLANE1); }},
     {"scissor", [](Context& c) { op::scissor(c, 1, 2, 3, 4); }},
     {"scissor test", [](Context& c) { op::enable(c, GL_SCISSOR_TEST); }},
     {"cull", [](Context& c) { op::enable(c, GL_CULL_FACE); }},
