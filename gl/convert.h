@@ -82,6 +82,26 @@ std::array<GLdouble, 4> tex_gen_doubles(GLenum pname, const From* params) {
   return v;
 }
 
+// glFogiv: the colour is normalised, the rest is not (spec 3.10). Likewise.
+inline std::array<GLfloat, 4> fog_floats(GLenum pname, const GLint* params) {
+  std::array<GLfloat, 4> v{};
+  switch (pname) {
+    case GL_FOG_COLOR:
+      for (size_t i = 0; i < 4; ++i) v[i] = normalized(params[i]);
+      break;
+    case GL_FOG_MODE:
+    case GL_FOG_DENSITY:
+    case GL_FOG_START:
+    case GL_FOG_END:
+    case GL_FOG_INDEX:
+      v[0] = static_cast<GLfloat>(params[0]);
+      break;
+    default:
+      break;
+  }
+  return v;
+}
+
 // glMaterialiv: colours are normalised, shininess and colour indices are not (spec 2.14.2). Reads as many
 // values as the pname has, and none for a pname that is none.
 inline std::array<GLfloat, 4> material_floats(GLenum pname, const GLint* params) {

@@ -1074,6 +1074,41 @@ HALFSPACE_ENTRY void GLAPIENTRY glDepthMask(GLboolean flag) {
   HALFSPACE_CALL(depth_mask, flag);
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glStencilFunc(GLenum func, GLint ref, GLuint mask) {
+  HALFSPACE_CALL(stencil_func, func, ref, mask);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glStencilOp(GLenum fail, GLenum zfail, GLenum zpass) {
+  HALFSPACE_CALL(stencil_op, fail, zfail, zpass);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glStencilMask(GLuint mask) {
+  HALFSPACE_CALL(stencil_mask, mask);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glLogicOp(GLenum opcode) {
+  HALFSPACE_CALL(logic_op, opcode);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glFogfv(GLenum pname, const GLfloat* params) {
+  HALFSPACE_CALL(fog, pname, params);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glFogiv(GLenum pname, const GLint* params) {
+  const auto converted = fog_floats(pname, params);
+  HALFSPACE_CALL(fog, pname, converted.data());
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glFogf(GLenum pname, GLfloat param) {
+  const GLfloat value = param;
+  HALFSPACE_CALL(fog, scalar_pname<GL_FOG_COLOR>(pname), &value);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glFogi(GLenum pname, GLint param) {
+  const GLfloat value = static_cast<GLfloat>(param);
+  HALFSPACE_CALL(fog, scalar_pname<GL_FOG_COLOR>(pname), &value);
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glScissor(GLint x, GLint y, GLsizei width, GLsizei height) {
   HALFSPACE_CALL(scissor, x, y, width, height);
 }
@@ -1208,6 +1243,14 @@ HALFSPACE_ENTRY void GLAPIENTRY glClearDepth(GLdouble depth) {
 
 HALFSPACE_ENTRY void GLAPIENTRY glClearStencil(GLint s) {
   HALFSPACE_CALL(clear_stencil, s);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glClearAccum(GLfloat red, GLfloat green, GLfloat blue, GLfloat alpha) {
+  HALFSPACE_CALL(clear_accum, red, green, blue, alpha);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glAccum(GLenum op, GLfloat value) {
+  HALFSPACE_CALL(accum, op, value);
 }
 
 HALFSPACE_ENTRY void GLAPIENTRY glClearIndex(GLfloat c) {

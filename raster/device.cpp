@@ -14,6 +14,7 @@
 #include "raster/primitive/pixel_rect.h"
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/window_box.h"
+#include "raster/surface/accumulate.h"
 #include "raster/surface/clear.h"
 #include "raster/surface/resolve.h"
 #include "raster/thread_pool.h"
@@ -214,6 +215,10 @@ void Device::Impl::need_planes(const DrawState& state, const PipelineProgram& pr
     pending_targets |= state.color_targets;
   }
   if (program.reads_depth) target->need_depth();
+  if (program.reads_stencil) {
+    target->need_stencil();
+    pending_stencil = true;
+  }
 }
 
 void Device::Impl::draw(const DrawPacket& packet) {
@@ -448,6 +453,14 @@ void Device::read_stencil(const Rect& rect, uint8_t* out) {
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
   read_rows(fb, rect, 1, out, [&](int x0, int x1, int y, uint8_t* to) { read_row_stencil(fb, x0, x1, y, to); });
+}
+
+void Device::accumulate(const AccumCommand& command) {
+  if (impl_->target == nullptr) return;
+  finish();
+  const Accumulation accumulation(*impl_->target, command);
+  impl_->pool.run(static_cast<uint32_t>(impl_->target->tiles.size()),
+                  [&](uint32_t tile, int) { accumulation.run(tile); });
 }
 
 void Device::copy_plane(ColorPlane from, ColorPlane to, const Rect& rect) {

@@ -67,12 +67,14 @@ struct Group {
 
 // A new group, or one that comes by another struct, is a line here.
 using AttributeGroups = std::tuple<                                                             //
+    Group<GL_ACCUM_BUFFER_BIT, Whole<&Context::accum>, 0>,                                      //
     Group<GL_COLOR_BUFFER_BIT, SavedColorBuffer>,                                               //
     Group<GL_CURRENT_BIT, Whole<&Context::current>, 0>,                                         //
     Group<GL_CURRENT_BIT, Whole<&Context::raster_position>, 0>,                                 //
     Group<GL_DEPTH_BUFFER_BIT, Whole<&Context::depth_buffer>>,                                  //
     Group<GL_ENABLE_BIT, SavedEnables>,                                                         //
     Group<GL_EVAL_BIT, Whole<&Context::evaluator>, 0>,                                          //
+    Group<GL_FOG_BIT, Whole<&Context::fog>>,                                                    //
     Group<GL_HINT_BIT, Whole<&Context::hint>>,                                                  //
     Group<GL_LIGHTING_BIT, Whole<&Context::lighting>>,                                          //
     Group<GL_LIST_BIT, Whole<&Context::list>, 0>,                                               //
@@ -83,6 +85,7 @@ using AttributeGroups = std::tuple<                                             
     Group<GL_POLYGON_BIT, Whole<&Context::polygon>>,                                            //
     Group<GL_POLYGON_STIPPLE_BIT, Whole<&Context::polygon_stipple>>,                            //
     Group<GL_SCISSOR_BIT, Whole<&Context::scissor>>,                                            //
+    Group<GL_STENCIL_BUFFER_BIT, Whole<&Context::stencil_buffer>>,                              //
     Group<GL_TEXTURE_BIT, SavedTextures>,                                                       //
     Group<GL_TRANSFORM_BIT, Whole<&Context::clip_plane>>,                                       //
     Group<GL_TEXTURE_BIT, Whole<&Context::tex_gen>>,                                            //

@@ -43,15 +43,16 @@ constexpr Capability kCapabilities[] = {
     LIVE(GL_LIGHT7, lighting.lights[7].enabled, kDirtyLighting),
     LIVE(GL_LIGHTING, lighting.enabled, kDirtyLighting | kDirtyTransform),
     LIVE(GL_NORMALIZE, transform.normalize, kDirtyTransform),
+    LIVE(GL_COLOR_LOGIC_OP, color_buffer.color_logic_op, kDirtyFragment),
+    LIVE(GL_FOG, fog.enabled, kDirtyFragment),
+    LIVE(GL_INDEX_LOGIC_OP, color_buffer.index_logic_op, 0),
+    LIVE(GL_STENCIL_TEST, stencil_buffer.test, kDirtyFragment),
     LIVE(GL_CLIP_PLANE0, clip_plane.enabled[0], kDirtyClipPlanes),
     LIVE(GL_CLIP_PLANE1, clip_plane.enabled[1], kDirtyClipPlanes),
     LIVE(GL_CLIP_PLANE2, clip_plane.enabled[2], kDirtyClipPlanes),
     LIVE(GL_CLIP_PLANE3, clip_plane.enabled[3], kDirtyClipPlanes),
     LIVE(GL_CLIP_PLANE4, clip_plane.enabled[4], kDirtyClipPlanes),
     LIVE(GL_CLIP_PLANE5, clip_plane.enabled[5], kDirtyClipPlanes),
-    IDLE(GL_COLOR_LOGIC_OP),
-    IDLE(GL_FOG),
-    IDLE(GL_INDEX_LOGIC_OP),
     LIVE(GL_LINE_SMOOTH, line.smooth, kDirtyRaster),
     LIVE(GL_LINE_STIPPLE, line.stipple, kDirtyRaster),
     LIVE(GL_POINT_SMOOTH, point.smooth, kDirtyRaster),
@@ -79,7 +80,6 @@ constexpr Capability kCapabilities[] = {
     LIVE(GL_MAP2_TEXTURE_COORD_4, evaluator.map2[kMapTexCoord4], 0),
     LIVE(GL_MAP2_VERTEX_3, evaluator.map2[kMapVertex3], 0),
     LIVE(GL_MAP2_VERTEX_4, evaluator.map2[kMapVertex4], 0),
-    IDLE(GL_STENCIL_TEST),
 };
 #undef LIVE
 #undef IDLE

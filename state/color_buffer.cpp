@@ -121,6 +121,12 @@ void blend_func(Context& context, GLenum src, GLenum dst) {
   mark_dirty(context, kDirtyFragment);
 }
 
+void logic_op(Context& context, GLenum op) {
+  if (op < GL_CLEAR || op > GL_SET) return record_error(context, GL_INVALID_ENUM);
+  context.color_buffer.logic_op = op;
+  mark_dirty(context, kDirtyFragment);
+}
+
 void color_mask(Context& context, GLboolean r, GLboolean g, GLboolean b, GLboolean a) {
   context.color_buffer.mask = {r != GL_FALSE, g != GL_FALSE, b != GL_FALSE, a != GL_FALSE};
   mark_dirty(context, kDirtyFragment);
@@ -165,6 +171,8 @@ std::span<const GetRow> color_buffer_get_rows() {
        [](const Context& c, double* out) { *out = c.color_buffer.blend_src; }},
       {GL_BLEND_DST, GetKind::enumeration, 1,
        [](const Context& c, double* out) { *out = c.color_buffer.blend_dst; }},
+      {GL_LOGIC_OP_MODE, GetKind::enumeration, 1,
+       [](const Context& c, double* out) { *out = c.color_buffer.logic_op; }},
       {GL_COLOR_WRITEMASK, GetKind::boolean, 4,
        [](const Context& c, double* out) {
          const raster::ColorMask& mask = c.color_buffer.mask;

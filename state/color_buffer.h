@@ -1,5 +1,5 @@
-// Alpha test, blending, colour mask, clear colour, and which buffers are drawn to and read
-// (spec 4.1.4, 4.1.7, 4.2).
+// Alpha test, blending, logical operation, colour mask, clear colour, and which buffers are drawn to and read
+// (spec 4.1.4, 4.1.7, 4.1.9, 4.2).
 #pragma once
 
 #include "raster/api/device.h"
@@ -15,6 +15,8 @@ struct ColorBufferState {
   float alpha_reference = 0;  // in [0, 1]
   bool blend = false;
   GLenum blend_src = GL_ONE, blend_dst = GL_ZERO;
+  bool color_logic_op = false, index_logic_op = false;
+  GLenum logic_op = GL_COPY;
   bool dither = true;  // 8-bit buffers show every colour as it is: never any effect
   raster::ColorMask mask;
   raster::Color clear_color;  // in [0, 1]

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "raster/api/device.h"
+#include "state/accum.h"
 #include "state/attribute_stack.h"
 #include "state/capability.h"
 #include "state/clip_plane.h"
@@ -17,6 +18,7 @@
 #include "state/error.h"
 #include "state/evaluator.h"
 #include "state/feedback.h"
+#include "state/fog.h"
 #include "state/hint.h"
 #include "state/immediate.h"
 #include "state/lighting.h"
@@ -30,6 +32,7 @@
 #include "state/raster_position.h"
 #include "state/scissor.h"
 #include "state/selection.h"
+#include "state/stencil.h"
 #include "state/tex_gen.h"
 #include "state/texture.h"
 #include "state/transform.h"
@@ -67,7 +70,10 @@ struct Context {
   PolygonStippleState polygon_stipple;
   LightingState lighting;
   DepthBufferState depth_buffer;
+  StencilBufferState stencil_buffer;
   ColorBufferState color_buffer;
+  AccumState accum;
+  FogState fog;
   HintState hint;
   TextureState texture;
   TexGenState tex_gen;

@@ -24,8 +24,6 @@ void clear_depth(Context& context, GLclampd depth) {
   context.depth_buffer.clear_value = depth > 0 ? std::min(depth, 1.0) : 0.0;  // NaN becomes 0
 }
 
-void clear_stencil(Context& context, GLint s) { context.depth_buffer.stencil_clear_value = s; }
-
 }  // namespace op
 
 std::span<const GetRow> depth_buffer_get_rows() {
@@ -36,8 +34,6 @@ std::span<const GetRow> depth_buffer_get_rows() {
        [](const Context& c, double* out) { *out = c.depth_buffer.write; }},
       {GL_DEPTH_CLEAR_VALUE, GetKind::normalized, 1,
        [](const Context& c, double* out) { *out = c.depth_buffer.clear_value; }},
-      {GL_STENCIL_CLEAR_VALUE, GetKind::integer, 1,
-       [](const Context& c, double* out) { *out = c.depth_buffer.stencil_clear_value; }},
   };
   return kRows;
 }

@@ -1,4 +1,4 @@
-// Depth buffer state (spec 4.1.6, 4.2.2), and the clear value of the stencil buffer that is to come.
+// Depth buffer state (spec 4.1.6, 4.2.2).
 #pragma once
 
 #include "state/gl_types.h"
@@ -10,7 +10,6 @@ struct DepthBufferState {
   GLenum func = GL_LESS;
   bool write = true;
   double clear_value = 1;  // in [0, 1]
-  GLint stencil_clear_value = 0;
 };
 
 }  // namespace halfspace::state

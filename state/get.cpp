@@ -23,7 +23,10 @@ std::vector<GetRow> collect_rows() {
            polygon_get_rows(),          //
            lighting_get_rows(),         //
            depth_buffer_get_rows(),     //
+           stencil_get_rows(),          //
            color_buffer_get_rows(),     //
+           accum_get_rows(),            //
+           fog_get_rows(),              //
            hint_get_rows(),             //
            vertex_array_get_rows(),     //
            texture_get_rows(),          //

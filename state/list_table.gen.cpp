@@ -102,6 +102,11 @@ void tex_gen(Context& context, GLenum coord, GLenum pname, const GLdouble* param
   Compiled<&OperationTable::tex_gen>::execute(context, coord, pname, params);
 }
 
+void fog(Context& context, GLenum pname, const GLfloat* params) {
+  compiling(context, [&] { Compiled<&OperationTable::fog>::record(context, pname, keep(context, params, pname_values(pname))); });
+  Compiled<&OperationTable::fog>::execute(context, pname, params);
+}
+
 void polygon_stipple(Context& context, const GLvoid* mask) {
   compiling(context, [&] { Compiled<&OperationTable::polygon_stipple>::record_image(context, keep_image(context, 32, 32, GL_COLOR_INDEX, GL_BITMAP, mask)); });
   Compiled<&OperationTable::polygon_stipple>::execute(context, mask);
@@ -246,6 +251,11 @@ const OperationTable kCompileTable = {
     .blend_func = Compiled<&OperationTable::blend_func>::compile,
     .depth_func = Compiled<&OperationTable::depth_func>::compile,
     .depth_mask = Compiled<&OperationTable::depth_mask>::compile,
+    .stencil_func = Compiled<&OperationTable::stencil_func>::compile,
+    .stencil_op = Compiled<&OperationTable::stencil_op>::compile,
+    .stencil_mask = Compiled<&OperationTable::stencil_mask>::compile,
+    .logic_op = Compiled<&OperationTable::logic_op>::compile,
+    .fog = compile::fog,
     .scissor = Compiled<&OperationTable::scissor>::compile,
     .color_mask = Compiled<&OperationTable::color_mask>::compile,
     .cull_face = Compiled<&OperationTable::cull_face>::compile,
@@ -280,6 +290,8 @@ const OperationTable kCompileTable = {
     .clear_color = Compiled<&OperationTable::clear_color>::compile,
     .clear_depth = Compiled<&OperationTable::clear_depth>::compile,
     .clear_stencil = Compiled<&OperationTable::clear_stencil>::compile,
+    .clear_accum = Compiled<&OperationTable::clear_accum>::compile,
+    .accum = Compiled<&OperationTable::accum>::compile,
     .clear_index = Compiled<&OperationTable::clear_index>::compile,
     .index_mask = Compiled<&OperationTable::index_mask>::compile,
     .draw_buffer = Compiled<&OperationTable::draw_buffer>::compile,

@@ -75,9 +75,10 @@ std::vector<FbConfig> make_configs(Display* display, int screen, int first_id) {
     const std::optional<PixelLayout> layout = layout_of(info, config.bits_per_pixel);
     if (!layout) continue;
     config.layout = *layout;
-    // Buffers hold 8 bits a component whatever the screen shows, and 24 bits of depth whatever is asked for.
-    config.bits.stencil_bits = kStencilAndAccumulation ? 8 : 0;
-    config.bits.accum_bits = kStencilAndAccumulation ? 16 : 0;
+    // Buffers hold 8 bits a component whatever the screen shows, and 24 bits of depth whatever is asked for. None
+    // costs anything before it is used, so every config has them all.
+    config.bits.stencil_bits = 8;
+    config.bits.accum_bits = 16;
     for (const bool double_buffered : {true, false}) {
       for (const int alpha_bits : {0, 8}) {
         config.id = first_id + int(configs.size());

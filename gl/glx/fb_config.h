@@ -10,9 +10,6 @@
 
 namespace halfspace::gl::glx {
 
-// Stencil of 8 bits and accumulation of 16 are offered as soon as the state room works with them.
-inline constexpr bool kStencilAndAccumulation = false;
-
 struct FbConfig {
   int id = 0;  // GLX_FBCONFIG_ID, unique within the display
   int screen = 0;

@@ -25,7 +25,7 @@ constexpr int kMajorVersion = 1, kMinorVersion = 1;
 // OSMesaCreateContextAttribs' list, with the documented defaults.
 struct ContextAttributes {
   int format = OSMESA_RGBA;
-  int depth_bits = 0, stencil_bits = 0, accum_bits = 0;
+  halfspace::gl::AncillaryBits bits;
   int profile = OSMESA_COMPAT_PROFILE;
   int major = 1, minor = 0;
 
@@ -35,11 +35,11 @@ struct ContextAttributes {
       case OSMESA_FORMAT:
         return &format;
       case OSMESA_DEPTH_BITS:
-        return &depth_bits;
+        return &bits.depth;
       case OSMESA_STENCIL_BITS:
-        return &stencil_bits;
+        return &bits.stencil;
       case OSMESA_ACCUM_BITS:
-        return &accum_bits;
+        return &bits.accum;
       case OSMESA_PROFILE:
         return &profile;
       case OSMESA_CONTEXT_MAJOR_VERSION:
@@ -68,7 +68,7 @@ std::optional<ContextAttributes> read_attributes(const int* list) {
 // Says why a context of these attributes cannot be had; null when it can.
 const char* reason_to_refuse(const ContextAttributes& a) {
   if (!halfspace::gl::format_of_context(static_cast<GLenum>(a.format))) return "the format is not supported";
-  if (a.depth_bits < 0 || a.stencil_bits < 0 || a.accum_bits < 0) return "a number of bits is negative";
+  if (a.bits.depth < 0 || a.bits.stencil < 0 || a.bits.accum < 0) return "a number of bits is negative";
   if (a.profile == OSMESA_CORE_PROFILE) return "there is no core profile";
   if (a.profile != OSMESA_COMPAT_PROFILE) return "the profile is unknown";
   if (a.major < 1 || a.minor < 0) return "there is no such version";
@@ -83,7 +83,7 @@ OSMesaContext create_context(const char* caller, const ContextAttributes& attrib
     return nullptr;
   }
   try {
-    return new osmesa_context(static_cast<GLenum>(attributes.format), attributes.depth_bits, share);
+    return new osmesa_context(static_cast<GLenum>(attributes.format), attributes.bits, share);
   } catch (const std::bad_alloc&) {
     report("%s: out of memory", caller);
     return nullptr;
@@ -118,8 +118,8 @@ extern "C" {
 HALFSPACE_EXPORT OSMesaContext OSMesaCreateContext(GLenum format, OSMesaContext sharelist) {
   ContextAttributes attributes;
   attributes.format = static_cast<int>(format);
-  attributes.depth_bits = 24;
-  attributes.stencil_bits = 8;
+  attributes.bits.depth = 24;
+  attributes.bits.stencil = 8;
   return create_context("OSMesaCreateContext", attributes, sharelist);
 }
 
@@ -127,9 +127,9 @@ HALFSPACE_EXPORT OSMesaContext OSMesaCreateContextExt(GLenum format, GLint depth
                                                       GLint accumBits, OSMesaContext sharelist) {
   ContextAttributes attributes;
   attributes.format = static_cast<int>(format);
-  attributes.depth_bits = depthBits;
-  attributes.stencil_bits = stencilBits;
-  attributes.accum_bits = accumBits;
+  attributes.bits.depth = depthBits;
+  attributes.bits.stencil = stencilBits;
+  attributes.bits.accum = accumBits;
   return create_context("OSMesaCreateContextExt", attributes, sharelist);
 }
 

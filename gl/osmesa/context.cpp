@@ -6,10 +6,11 @@
 using halfspace::gl::format_of_context;
 using halfspace::gl::visual_of;
 
-osmesa_context::osmesa_context(GLenum name, int depth_bits, osmesa_context* share)
+osmesa_context::osmesa_context(GLenum name, const halfspace::gl::AncillaryBits& bits,
+                               osmesa_context* share)
     : format_name(name),
-      surface(depth_bits),
-      state(visual_of(*format_of_context(name), depth_bits), share ? &share->state : nullptr) {}
+      surface(bits),
+      state(visual_of(*format_of_context(name), bits), share ? &share->state : nullptr) {}
 
 namespace halfspace::gl {
 namespace {

@@ -11,7 +11,7 @@
 
 // The name is the header's.
 struct osmesa_context {
-  osmesa_context(GLenum format_name, int depth_bits, osmesa_context* share);
+  osmesa_context(GLenum format_name, const halfspace::gl::AncillaryBits& bits, osmesa_context* share);
 
   GLenum format_name;  // OSMESA_RGBA ...
   halfspace::gl::Surface surface;

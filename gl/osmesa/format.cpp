@@ -62,18 +62,21 @@ std::optional<BufferFormat> format_of_buffer(GLenum context_format, GLenum type)
   }
 }
 
-state::VisualConfig visual_of(const BufferFormat& format, int depth_bits) {
+state::VisualConfig visual_of(const BufferFormat& format, const AncillaryBits& bits) {
   state::VisualConfig visual;
-  int bits = 8;
-  if (format.component == Component::short16) bits = 16;
-  if (format.component == Component::float32) bits = 32;
-  visual.red_bits = visual.green_bits = visual.blue_bits = bits;
-  visual.alpha_bits = format.has_alpha() ? bits : 0;
+  int color_bits = 8;
+  if (format.component == Component::short16) color_bits = 16;
+  if (format.component == Component::float32) color_bits = 32;
+  visual.red_bits = visual.green_bits = visual.blue_bits = color_bits;
+  visual.alpha_bits = format.has_alpha() ? color_bits : 0;
   if (format.component == Component::packed565) {
     visual.red_bits = visual.blue_bits = 5;
     visual.green_bits = 6;
   }
-  visual.depth_bits = depth_bits > 0 ? 24 : 0;  // never fewer than 24, even when 16 were asked for
+  // Never fewer than there are in any buffer of ours, even when 16 bits of depth were asked for.
+  visual.depth_bits = bits.depth > 0 ? 24 : 0;
+  visual.stencil_bits = bits.stencil > 0 ? 8 : 0;
+  visual.accum_bits = bits.accum > 0 ? 16 : 0;
   return visual;
 }
 

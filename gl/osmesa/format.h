@@ -30,7 +30,11 @@ struct BufferFormat {
 std::optional<BufferFormat> format_of_context(GLenum format);
 // `context_format` with components of `type`; nothing when the two do not go together.
 std::optional<BufferFormat> format_of_buffer(GLenum context_format, GLenum type);
-// What glGet reports as the bits of such a buffer. `depth_bits` as the program asked for.
-state::VisualConfig visual_of(const BufferFormat& format, int depth_bits);
+// Bits of the buffers beside the colours, as the program asked for.
+struct AncillaryBits {
+  int depth = 0, stencil = 0, accum = 0;
+};
+// What glGet reports as the bits of such a buffer.
+state::VisualConfig visual_of(const BufferFormat& format, const AncillaryBits& bits);
 
 }  // namespace halfspace::gl

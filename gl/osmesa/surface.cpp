@@ -23,7 +23,7 @@ void Surface::attach(const UserBuffer& user) {
         std::make_unique<raster::Framebuffer>(user.width, user.height, user.format.surface_format());
   }
   user_ = user;
-  visual_ = visual_of(user.format, depth_bits_);
+  visual_ = visual_of(user.format, bits_);
 }
 
 raster::LinearImage Surface::user_image() const {

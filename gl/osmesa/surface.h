@@ -19,7 +19,7 @@ struct UserBuffer {
 
 class Surface final : public state::Drawable {
  public:
-  explicit Surface(int depth_bits) : depth_bits_(depth_bits) {}
+  explicit Surface(const AncillaryBits& bits) : bits_(bits) {}
 
   // Shows the picture in `user` from now on. The framebuffer, and with it the picture, stays when size and
   // kind of components stay. Only while no device has its pass on this surface. May throw std::bad_alloc,
@@ -31,9 +31,9 @@ class Surface final : public state::Drawable {
   bool keeps_framebuffer(const UserBuffer& user) const;
 
   const UserBuffer& user() const { return user_; }
-  bool has_depth() const { return depth_bits_ > 0; }
+  bool has_depth() const { return bits_.depth > 0; }
   // Bytes a value of OSMesaGetDepthBuffer.
-  int depth_value_bytes() const { return depth_bits_ <= 16 ? 2 : 4; }
+  int depth_value_bytes() const { return bits_.depth <= 16 ? 2 : 4; }
 
   void set_row_length(int pixels) { row_length_ = pixels; }
   int row_length() const { return row_length_; }
@@ -51,7 +51,7 @@ class Surface final : public state::Drawable {
   void finish_into_shorts(raster::Device& device);
   void capture(raster::Device& device) const;
 
-  int depth_bits_;
+  AncillaryBits bits_;
   UserBuffer user_;
   state::VisualConfig visual_;
   std::unique_ptr<raster::Framebuffer> framebuffer_;

@@ -18,6 +18,15 @@ struct LevelRef {
   bool opaque;  // every texel, skirt included, has alpha 255
 };
 
+// Fog: with u = (distance - origin) * slope, the share of the fragment's own colour is u, e^-u or e^-(u * u).
+struct FogParams {
+  int plane = 0;  // of the distance
+  FogMode mode = FogMode::exp;
+  float origin = 0, slope = 1;
+  float color[3] = {};    // 0..255
+  double level_span = 0;  // distance over which a colour changes by a level, at least
+};
+
 // What holds for all fragments of a draw; values only, the code is in the program's stage list.
 struct FragmentParams {
   LevelRef levels[kMaxTextureLevels];
@@ -33,6 +42,10 @@ struct FragmentParams {
   float alpha_reference = 0;  // 0..255
   CompareFunc alpha_func = CompareFunc::always;
   BlendFactor blend_src = BlendFactor::one, blend_dst = BlendFactor::zero;
+  LogicOp logic_op = LogicOp::copy;
+  StencilState stencil;
+  DepthState depth;  // where the stencil stage makes the depth test
+  FogParams fog;
   uint32_t color_mask = ~0u;  // bytes to write, as packed
 };
 
@@ -56,6 +69,7 @@ struct alignas(64) BlockContext {
   double dx, dy;          // centre of the block's lowest-left pixel minus the anchor
   uint64_t live;          // bit (y % 8) * 8 + x % 8
   uint32_t* depth;        // the block's 64 pixels
+  uint8_t* stencil;       // likewise
   const uint32_t* given_depth;  // where fragments bring their own: 24 bits each
   uint32_t* color;        // rgba8; with a queue, of the tile
   float* color_planes;    // rgba32f

@@ -22,9 +22,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/coverage.inl"
 #include "raster/fragment/stages/depth.inl"
 #include "raster/fragment/stages/env.inl"
+#include "raster/fragment/stages/fog.inl"
 #include "raster/fragment/stages/lambda.inl"
+#include "raster/fragment/stages/logic_op.inl"
 #include "raster/fragment/stages/sample.inl"
 #include "raster/fragment/stages/levels.inl"
+#include "raster/fragment/stages/stencil.inl"
 #include "raster/fragment/stages/write.inl"
 
 enum SlotGroup : unsigned { kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32 };

@@ -1,11 +1,14 @@
 #include "raster/fragment/program.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "raster/texture/level.h"
 
 namespace halfspace::raster {
 namespace {
+
+constexpr double kSteepest = 1e30;
 
 StageId depth_stage(const DepthState& depth) {
   using enum StageId;
@@ -27,7 +30,19 @@ bool needs_depth(const DepthState& depth) {
   return depth.test && !(depth.func == CompareFunc::always && !depth.write);
 }
 
+// What a stencil test may do to the stencil values of fragments that do not pass the depth test.
+bool marks_hidden(const StencilState& s) {
+  const bool by_test = s.fail != StencilOp::keep && s.func != CompareFunc::always;
+  return s.write_mask != 0 && (by_test || s.depth_fail != StencilOp::keep);
+}
+bool writes_stencil(const StencilState& s) {
+  return s.test && (marks_hidden(s) || (s.write_mask != 0 && s.depth_pass != StencilOp::keep));
+}
+bool needs_stencil(const StencilState& s) { return s.test && (s.func != CompareFunc::always || writes_stencil(s)); }
+
 bool needs_alpha_test(const AlphaTestState& test) { return test.enabled && test.func != CompareFunc::always; }
+
+bool has_logic_op(const LogicOpState& s) { return s.enabled && s.op != LogicOp::copy; }
 
 bool blends(const BlendState& blend) {
   return blend.enabled && !(blend.src == BlendFactor::one && blend.dst == BlendFactor::zero);
@@ -146,6 +161,25 @@ void set_texture_params(const DrawState& state, FragmentParams& params) {
   scale_color(state.texture.env_color, false, params.env_color);
 }
 
+void set_fog_params(const FogState& fog, const VertexLayout& layout, FragmentParams& params) {
+  FogParams& out = params.fog;
+  out.plane = 2 + layout.fog;
+  out.mode = fog.mode;
+  if (fog.mode == FogMode::linear) {
+    // With start == end the fog is a wall: the largest float for its slope.
+    const double span = static_cast<double>(fog.end) - static_cast<double>(fog.start);
+    const double slope = span != 0 ? std::clamp(1 / span, -kSteepest, kSteepest) : kSteepest;
+    out.origin = fog.end;
+    out.slope = static_cast<float>(-slope);
+  } else {
+    out.origin = 0;
+    out.slope = fog.density;
+  }
+  const float color[3] = {fog.color.r, fog.color.g, fog.color.b};
+  for (int k = 0; k < 3; ++k) out.color[k] = color_level(color[k], params.rounds_to_bytes);
+  out.level_span = 1 / (255.0 * std::max(std::fabs(static_cast<double>(out.slope)), 1e-30));
+}
+
 FragmentParams make_params(const DrawState& state, const VertexLayout& layout, ColorFormat format) {
   FragmentParams params;
   params.color_plane = 2 + layout.color;
@@ -156,6 +190,10 @@ FragmentParams make_params(const DrawState& state, const VertexLayout& layout, C
   params.alpha_reference = std::clamp(state.alpha_test.reference, 0.0f, 1.0f) * 255.0f;
   params.blend_src = state.blend.src;
   params.blend_dst = state.blend.dst;
+  params.logic_op = state.logic_op.op;
+  params.stencil = state.stencil;
+  params.depth = state.depth;
+  if (layout.fog >= 0) set_fog_params(state.fog, layout, params);
   params.color_mask = byte_mask(state.color_mask);
   if (state.texture.view != nullptr) set_texture_params(state, params);
   return params;
@@ -178,6 +216,18 @@ bool cover(const StageList& list, int first, int last, bool fuse, BlockFunction 
   return program.count > 0;
 }
 
+void add_depth_and_stencil(const DrawState& state, StageList& list) {
+  const bool depth = needs_depth(state.depth);
+  if (needs_stencil(state.stencil)) list.add(depth ? StageId::stencil_depth_test : StageId::stencil_test);
+  else if (depth) list.add(depth_stage(state.depth));
+}
+
+StageId fog_stage(unsigned variant) {
+  using enum StageId;
+  constexpr StageId kFog[kVariantCount] = {fog_perspective, fog_affine, fog_perspective_double, fog_affine_double};
+  return kFog[variant];
+}
+
 bool writes_color(const DrawState& state) { return !state.color_mask.none() && state.color_targets != 0; }
 
 }  // namespace
@@ -185,23 +235,25 @@ bool writes_color(const DrawState& state) { return !state.color_mask.none() && s
 StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorFormat format, unsigned variant) {
   StageList list;
   const bool alpha_test = needs_alpha_test(state.alpha_test);
-  const bool depth = needs_depth(state.depth);
-  if (depth && !alpha_test) list.add(depth_stage(state.depth));
+  if (!alpha_test) add_depth_and_stencil(state, list);
   if (writes_color(state) || alpha_test) {
     if (state.texture.view != nullptr && layout.tex_coord >= 0)
       add_texture_stages(state, layout, variant, list);
     else
       add_color(state, layout, variant, list);
   }
+  if (layout.fog >= 0 && (writes_color(state) || alpha_test)) list.add(fog_stage(variant));
   if (layout.coverage && (writes_color(state) || alpha_test)) list.add(StageId::coverage);
   if (alpha_test) {
     list.add(StageId::alpha_test);
-    if (depth) list.add(depth_stage(state.depth));
+    add_depth_and_stencil(state, list);
   }
   list.tail = list.count;
   if (!writes_color(state)) return list;
   const bool rgba8 = format == ColorFormat::rgba8;
-  if (blends(state.blend)) list.add(rgba8 ? StageId::blend_rgba8 : StageId::blend_rgba32f);
+  if (state.logic_op.enabled) {
+    if (has_logic_op(state.logic_op)) list.add(rgba8 ? StageId::logic_op_rgba8 : StageId::logic_op_rgba32f);
+  } else if (blends(state.blend)) list.add(rgba8 ? StageId::blend_rgba8 : StageId::blend_rgba32f);
   if (!rgba8) list.add(StageId::write_rgba32f);
   else list.add(state.color_mask.all() ? StageId::write_rgba8 : StageId::write_rgba8_masked);
   return list;
@@ -227,7 +279,8 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
   const bool depth = needs_depth(state.depth);
   program.depth = state.depth;
   program.depth.test = depth;
-  program.packs = !needs_alpha_test(state.alpha_test) && !program.both_planes && !state.polygon.stipple;
+  const bool stencil = needs_stencil(state.stencil);
+  program.packs = !needs_alpha_test(state.alpha_test) && !program.both_planes && !stencil && !state.polygon.stipple;
   for (unsigned variant = 0; variant <= kAffine; ++variant) {
     const StageList list = list_stages(state, layout, format, variant);
     program.packs = program.packs && cover(list, depth ? 1 : 0, list.count, fuse, &KernelPair::packed,
@@ -236,12 +289,15 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
   const CompareFunc func = state.depth.func;
   const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
   program.reads_depth = depth;
+  program.reads_stencil = stencil;
   program.writes_depth = depth && state.depth.write;
   const bool one_plane = !layout.given_depth;  // fragments lie on it, so that a block's depth can be told beforehand
-  program.rejects_deeper = depth && lowers && one_plane;
+  program.rejects_deeper = depth && lowers && one_plane && !(stencil && marks_hidden(state.stencil));
   program.depth_may_grow = program.writes_depth && !lowers && func != CompareFunc::equal && func != CompareFunc::never;
-  program.depth_pass_lowers = program.writes_depth && lowers && !needs_alpha_test(state.alpha_test) && one_plane;
-  program.draws_nothing = (depth && func == CompareFunc::never) || (!program.writes_color && !program.writes_depth);
+  program.depth_pass_lowers =
+      program.writes_depth && lowers && !needs_alpha_test(state.alpha_test) && !stencil && one_plane;
+  const bool reaches_memory = program.writes_color || program.writes_depth;
+  program.draws_nothing = !writes_stencil(state.stencil) && ((depth && func == CompareFunc::never) || !reaches_memory);
   return program;
 }
 

@@ -16,7 +16,7 @@ enum class StageId : uint8_t {
   count
 };
 
-inline constexpr int kMaxStages = 12;
+inline constexpr int kMaxStages = 14;
 
 // The stages in the order they run. Two equal lists compute the same thing with the same code.
 struct StageList {
@@ -50,6 +50,7 @@ struct PipelineProgram {
   DepthState depth;  // the test that packing does; test == false: none
   FragmentParams params;
   bool reads_depth = false, writes_depth = false, writes_color = false;
+  bool reads_stencil = false;
   int plane = 0;  // index of the colour plane drawn to; with `both_planes` the other one is, too
   bool both_planes = false;
   bool rejects_deeper = false;  // depth test is LESS or LEQUAL and runs first: coarse z may drop a block

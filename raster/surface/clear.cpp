@@ -1,7 +1,8 @@
 #include "raster/surface/clear.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "raster/surface/accumulate.h"
 
 namespace halfspace::raster {
 namespace {
@@ -165,11 +166,6 @@ void clear_tile(const TileClear& at, const ClearCommand& command, uint8_t target
 }
 
 }  // namespace
-
-int16_t accum_fixed(double value) {
-  const double bounded = value > -1 ? std::min(value, 1.0) : -1.0;  // NaN is -1
-  return static_cast<int16_t>(std::floor(bounded * kAccumOne + 0.5));
-}
 
 bool clears_everything(const Framebuffer::Impl& fb, const ClearCommand& command) {
   const bool everywhere = clear_rect(fb, command) == Rect{0, 0, fb.width, fb.height};

@@ -6,11 +6,6 @@
 
 namespace halfspace::raster {
 
-// The accumulation buffer's fixed point: this is 1.0.
-inline constexpr int kAccumOne = 32767;
-// Rounded to nearest, clamped to [-1, 1].
-int16_t accum_fixed(double value);
-
 // True if the command sets every pixel of the buffers it names, so that what was there before does not matter.
 bool clears_everything(const Framebuffer::Impl& framebuffer, const ClearCommand& command);
 

@@ -205,6 +205,10 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
     }
     if (layout.projective) maker.needs_double = hn::Eq(maker.scale, maker.scale);
   }
+  if (layout.fog >= 0) {
+    for (int k = 0; k < 3; ++k) value[k] = LoadFloat(in.attribute[layout.fog][k] + i);
+    maker.StoreAttribute(value, 2 + layout.fog, i, false, hn::Set(d, kColorTolerance * params.fog.level_span), out);
+  }
   // Variant bits by way of integers: one small number a lane.
   const VD bits = hn::Add(hn::IfThenElseZero(maker.affine, hn::Set(d, static_cast<double>(kAffine))),
                           hn::IfThenElseZero(maker.needs_double, hn::Set(d, static_cast<double>(kDouble))));

@@ -102,6 +102,11 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
     if ((t.state->depth_is_clear & bit) != 0) t.framebuffer->settle_depth(t.tile, bit);
     c.depth = t.framebuffer->depth_tile(t.tile) + block * kBlockPixels;
   }
+  if (program.reads_stencil) {
+    const uint64_t bit = uint64_t{1} << block;
+    if ((t.state->stencil_is_clear & bit) != 0) t.framebuffer->settle_stencil(t.tile, bit);
+    c.stencil = t.framebuffer->stencil_tile(t.tile) + block * kBlockPixels;
+  }
   if (program.writes_color) SelectColor(t, block, program.plane);
   c.lane = lane;
   c.live = mask;

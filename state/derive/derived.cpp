@@ -23,6 +23,9 @@ static_assert(int(CompareFunc::less) == GL_LESS - GL_NEVER &&
               int(CompareFunc::greater_equal) == GL_GEQUAL - GL_NEVER &&
               int(CompareFunc::always) == GL_ALWAYS - GL_NEVER);
 
+static_assert(int(raster::LogicOp::copy) == GL_COPY - GL_CLEAR &&
+              int(raster::LogicOp::xor_) == GL_XOR - GL_CLEAR && int(raster::LogicOp::set) == GL_SET - GL_CLEAR);
+
 CompareFunc compare_func_of(GLenum func) { return CompareFunc(func - GL_NEVER); }
 
 // A visual without alpha has Ad = 1 wherever it is asked for (spec 4.1.7).
@@ -163,6 +166,9 @@ void derive_fragment(const Context& context, DrawState& out) {
   out.depth = {d.test && context.visual.depth_bits > 0, compare_func_of(d.func), d.write};
   out.alpha_test = {c.alpha_test, compare_func_of(c.alpha_func), c.alpha_reference};
   out.blend = {c.blend, blend_factor_of(c.blend_src, has_alpha), blend_factor_of(c.blend_dst, has_alpha)};
+  out.stencil = derive_stencil(context);
+  out.fog = derive_fog(context);
+  out.logic_op = {c.color_logic_op, raster::LogicOp(c.logic_op - GL_CLEAR)};
   out.color_mask = c.mask;
   out.color_targets = draw_planes(context);
 }
