@@ -60,7 +60,8 @@ std::array<double, 4> eye_plane(const Matrix& m, const double* p) {
     for (size_t i = k + 1; i < 4; ++i) {
       if (std::fabs(a[i][k]) > std::fabs(a[pivot][k])) pivot = i;
     }
-    if (!(std::fabs(a[pivot][k]) > 0)) return {p[0], p[1], p[2], p[3]};
+    const double largest = std::fabs(a[pivot][k]);
+    if (!(largest > 0) || !std::isfinite(largest)) return {p[0], p[1], p[2], p[3]};
     std::swap(a[k], a[pivot]);
     for (size_t i = 0; i < 4; ++i) {
       if (i == k) continue;

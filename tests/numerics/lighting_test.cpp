@@ -427,5 +427,46 @@ TEST(Lighting, PolygonsTakeTheirFacesColour) {
   }
 }
 
+// Drawn as points or lines, a polygon still has its own face's colour; lines and points of their own have the
+// front's.
+TEST(Lighting, OutlinesTakeTheirPolygonsColour) {
+  constexpr int kSize = 64;
+  for (PolygonMode mode : {PolygonMode::fill, PolygonMode::line, PolygonMode::point}) {
+    for (bool cut : {false, true}) {
+      for (bool flat : {false, true}) {
+        for (int kind = 0; kind < 4; ++kind) {  // front, back, line, point
+          DrawState state = plain_state(kSize, kSize);
+          state.polygon.front = state.polygon.back = mode;
+          state.raster.flat_shading = flat;
+          state.lighting.enabled = state.lighting.two_sided = true;
+          state.lighting.model_ambient = {0, 0, 0, 1};
+          state.lighting.material.front.emission = {1, 0, 0, 1};
+          state.lighting.material.back.emission = {0, 1, 0, 1};
+          const float far = cut ? 3 : 0;
+          std::vector<Vertex> v{{-0.75f, -0.75f}, {0.75f, -0.5f}, {0.25f, 0.75f, far}};
+          if (kind == 1) std::swap(v[0], v[1]);
+          Canvas canvas(kSize, kSize);
+          canvas.clear();
+          canvas.draw(state,
+                      kind < 2    ? Primitive::triangles
+                      : kind == 2 ? Primitive::lines
+                                  : Primitive::points,
+                      v);
+          const Picture picture = canvas.read();
+          size_t drawn = 0;
+          for (int i = 0; i < kSize * kSize; ++i) {
+            const uint8_t* p = picture.pixel(i % kSize, i / kSize);
+            if (!p[0] && !p[1]) continue;
+            ++drawn;
+            EXPECT_EQ((std::array<int, 2>{p[0], p[1]}),
+                      (kind == 1 ? std::array{0, 255} : std::array{255, 0}));
+          }
+          EXPECT_GT(drawn, 1u) << int(mode) << cut << flat << kind;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::test
