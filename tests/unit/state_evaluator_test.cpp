@@ -297,6 +297,21 @@ TEST_F(EvaluatorTest, AutomaticNormals) {
   }
 }
 
+// The slopes are by u and v: where one of them runs backwards, the same point has the opposite normal.
+TEST_F(EvaluatorTest, AutomaticNormalsFollowTheDomain) {
+  const Row points = random_points(3 * 4 * 4);
+  op::enable(*context, GL_MAP2_VERTEX_3);
+  op::enable(*context, GL_AUTO_NORMAL);
+  op::enable(*context, GL_LIGHTING);
+  op::map2f(*context, GL_MAP2_VERTEX_3, 0, 1, 12, 4, 0, 1, 3, 4, points.data());
+  const auto forwards = vertex_at(0.25, 0.75);
+  op::map2f(*context, GL_MAP2_VERTEX_3, 1, 0, 12, 4, 0, 1, 3, 4, points.data());
+  const auto backwards = vertex_at(0.75, 0.75);
+  EXPECT_EQ(backwards.position, forwards.position);
+  EXPECT_NE(forwards.normal[0], 0.0f);
+  for (size_t k = 0; k < 3; ++k) EXPECT_EQ(backwards.normal[k], -forwards.normal[k]);
+}
+
 TEST_F(EvaluatorTest, AnswersWhatWasSet) {
   const Row points = random_points(2 * 3 * 4 + 1);
   op::map2f(*context, GL_MAP2_COLOR_4, 0.5f, 2, 12, 2, -1, 3, 4, 3, points.data());
