@@ -1,10 +1,7 @@
 // Showing pictures, and waiting.
-#include <atomic>
-
 #include "gl/glx/entry.h"
 #include "state/operations.gen.h"
 #include "state/out_of_memory.h"
-#include "state/report.h"
 
 using namespace halfspace;
 using namespace halfspace::gl::glx;
@@ -66,12 +63,6 @@ HALFSPACE_EXPORT void glXSwapIntervalEXT(Display* display, GLXDrawable id, int i
     if (const auto drawable = data.find_drawable(id)) drawable->swap_interval = interval;
     return 0;
   });
-}
-
-HALFSPACE_EXPORT void glXUseXFont(Font, int, int, int) {
-  static std::atomic<bool> reported{false};
-  if (!reported.exchange(true))
-    state::report("glXUseXFont: there are no display lists yet, so the font's characters are not drawn");
 }
 
 }  // extern "C"

@@ -13,4 +13,5 @@ set(HALFSPACE_GLX_SOURCES
   glx/drawable.cpp
   glx/fb_config.cpp
   glx/present.cpp
-  glx/registry.cpp)
+  glx/registry.cpp
+  glx/x_font.cpp)
