@@ -83,7 +83,8 @@ void use_arrays(const std::vector<Vertex>& vertices) {
   glColorPointer(4, GL_FLOAT, sizeof(Vertex), vertices[0].color);
   glNormalPointer(GL_FLOAT, sizeof(Vertex), vertices[0].normal);
   glVertexPointer(3, GL_FLOAT, sizeof(Vertex), vertices[0].position);
-  for (GLenum array : {GL_VERTEX_ARRAY, GL_COLOR_ARRAY, GL_NORMAL_ARRAY, GL_TEXTURE_COORD_ARRAY})
+  for (GLenum array : std::initializer_list<GLenum>{GL_VERTEX_ARRAY, GL_COLOR_ARRAY, GL_NORMAL_ARRAY,
+                                                    GL_TEXTURE_COORD_ARRAY})
     glEnableClientState(array);
 }
 

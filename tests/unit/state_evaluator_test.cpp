@@ -77,7 +77,8 @@ TEST_F(EvaluatorTest, CurvesOfEveryOrder) {
       for (size_t k = 0; k < 4; ++k) {
         long double truth = 0;
         for (int i = 0; i < order; ++i) {
-          truth += bernstein(order - 1, i, (u - 2.0L) / 3) * (long double)(points[size_t(i) * 5 + k]);
+          truth +=
+              bernstein(order - 1, i, ((long double)(u)-2) / 3) * (long double)(points[size_t(i) * 5 + k]);
         }
         expect_near(vertex.position[k], truth);
       }
@@ -112,8 +113,8 @@ TEST_F(EvaluatorTest, SurfacesWithStrides) {
           for (int i = 0; i < u_order; ++i) {
             for (int j = 0; j < v_order; ++j) {
               const float point = points[size_t(i * u_stride + j * v_stride) + k];
-              truth += bernstein(u_order - 1, i, u) * bernstein(v_order - 1, j, (v - 4.0L) / -2) *
-                       (long double)(point);
+              truth += bernstein(u_order - 1, i, (long double)(u)) *
+                       bernstein(v_order - 1, j, ((long double)(v)-4) / -2) * (long double)(point);
             }
           }
           expect_near(vertex.position[k], truth);
@@ -134,8 +135,8 @@ TEST_F(EvaluatorTest, AttributesAreEvaluatedAndCurrentValuesStay) {
   op::map1f(*context, GL_MAP1_TEXTURE_COORD_2, 0, 1, 2, 2, coordinates);
   op::map1f(*context, GL_MAP1_TEXTURE_COORD_1, 0, 1, 1, 2, coordinates);
   op::map1f(*context, GL_MAP1_NORMAL, 0, 1, 3, 2, normals);
-  for (GLenum cap :
-       {GL_MAP1_VERTEX_3, GL_MAP1_COLOR_4, GL_MAP1_TEXTURE_COORD_1, GL_MAP1_TEXTURE_COORD_2, GL_MAP1_NORMAL})
+  for (GLenum cap : std::initializer_list<GLenum>{GL_MAP1_VERTEX_3, GL_MAP1_COLOR_4, GL_MAP1_TEXTURE_COORD_1,
+                                                  GL_MAP1_TEXTURE_COORD_2, GL_MAP1_NORMAL})
     op::enable(*context, cap);
   const Snapshot before = take_snapshot(*context);
   const auto vertex = vertex_at(0.5);
@@ -190,12 +191,12 @@ TEST_F(EvaluatorTest, MeshesAreLoopsOfPoints) {
     body();
     op::end(*context);
   };
-  for (const auto& [mode, primitive] : {std::pair{GL_LINE, GL_LINE_STRIP}, {GL_POINT, GL_POINTS}}) {
+  for (const auto& strip : {std::pair{GL_LINE, GL_LINE_STRIP}, {GL_POINT, GL_POINTS}}) {
     const auto loop = [&] {
       for (GLint i = -1; i <= 8; ++i) point1(i);
     };
-    EXPECT_EQ(drawn([&] { op::eval_mesh1(*context, GLenum(mode), -1, 8); }),
-              drawn([&] { pair(GLenum(primitive), loop); }));
+    EXPECT_EQ(drawn([&] { op::eval_mesh1(*context, GLenum(strip.first), -1, 8); }),
+              drawn([&] { pair(GLenum(strip.second), loop); }));
   }
   const auto quads = drawn([&] {
     for (GLint j = 0; j < 3; ++j) {
@@ -270,22 +271,22 @@ TEST_F(EvaluatorTest, AutomaticNormals) {
     for (double v : {0.0, 0.5, 1.0}) {
       const auto vertex = vertex_at(u, v);
       // Derivatives of (x, y, z) / w by differences in long double.
-      const auto surface = [&](long double a, long double b, size_t k) {
+      const auto surface = [&](long double x, long double y, size_t k) {
         long double sum = 0, w = 0;
         for (size_t i = 0; i < 2; ++i) {
           for (size_t j = 0; j < 2; ++j) {
-            const long double weight = (i ? a : 1 - a) * (j ? b : 1 - b);
+            const long double weight = (i ? x : 1 - x) * (j ? y : 1 - y);
             sum += weight * (long double)(patch[i * 8 + j * 4 + k]);
             w += weight * (long double)(patch[i * 8 + j * 4 + 3]);
           }
         }
         return sum / w;
       };
-      const long double h = 1e-6L;
+      const long double h = 1e-6L, a = (long double)(u), b = (long double)(v);
       long double by_u[3], by_v[3];
       for (size_t k = 0; k < 3; ++k) {
-        by_u[k] = (surface(u + h, v, k) - surface(u - h, v, k)) / (2 * h);
-        by_v[k] = (surface(u, v + h, k) - surface(u, v - h, k)) / (2 * h);
+        by_u[k] = (surface(a + h, b, k) - surface(a - h, b, k)) / (2 * h);
+        by_v[k] = (surface(a, b + h, k) - surface(a, b - h, k)) / (2 * h);
       }
       const long double n[3] = {by_u[1] * by_v[2] - by_u[2] * by_v[1], by_u[2] * by_v[0] - by_u[0] * by_v[2],
                                 by_u[0] * by_v[1] - by_u[1] * by_v[0]};

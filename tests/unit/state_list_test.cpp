@@ -241,7 +241,8 @@ TEST_F(ListTest, ImagesAreReadAsPixelStoreSaysWhenTheListIsCompiled) {
                           bytes.data());
   gl.end_list();
   std::fill(bytes.begin(), bytes.end(), GLubyte(99));
-  for (GLenum name : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS}) gl.table().pixel_storei(*context, name, 0);
+  for (GLenum name : std::initializer_list<GLenum>{GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS})
+    gl.table().pixel_storei(*context, name, 0);
   gl.table().pixel_storei(*context, GL_UNPACK_SKIP_PIXELS, 2);
   gl.call_list(1);
   EXPECT_EQ(gl.get(GL_UNPACK_SKIP_PIXELS), 2);
