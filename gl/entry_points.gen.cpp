@@ -1409,6 +1409,198 @@ HALFSPACE_ENTRY void GLAPIENTRY glRasterPos4dv(const GLdouble* v) {
   HALFSPACE_CALL(raster_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]), static_cast<GLfloat>(v[3]));
 }
 
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2s(GLshort x, GLshort y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2sv(const GLshort* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2i(GLint x, GLint y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2iv(const GLint* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2f(GLfloat x, GLfloat y) {
+  HALFSPACE_CALL(window_pos, x, y, 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2fv(const GLfloat* v) {
+  HALFSPACE_CALL(window_pos, v[0], v[1], 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2d(GLdouble x, GLdouble y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2dv(const GLdouble* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3s(GLshort x, GLshort y, GLshort z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3sv(const GLshort* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3i(GLint x, GLint y, GLint z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3iv(const GLint* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3f(GLfloat x, GLfloat y, GLfloat z) {
+  HALFSPACE_CALL(window_pos, x, y, z);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3fv(const GLfloat* v) {
+  HALFSPACE_CALL(window_pos, v[0], v[1], v[2]);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3d(GLdouble x, GLdouble y, GLdouble z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3dv(const GLdouble* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2dARB(GLdouble x, GLdouble y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2dMESA(GLdouble x, GLdouble y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2dvARB(const GLdouble* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2dvMESA(const GLdouble* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2fARB(GLfloat x, GLfloat y) {
+  HALFSPACE_CALL(window_pos, x, y, 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2fMESA(GLfloat x, GLfloat y) {
+  HALFSPACE_CALL(window_pos, x, y, 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2fvARB(const GLfloat* v) {
+  HALFSPACE_CALL(window_pos, v[0], v[1], 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2fvMESA(const GLfloat* v) {
+  HALFSPACE_CALL(window_pos, v[0], v[1], 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2iARB(GLint x, GLint y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2iMESA(GLint x, GLint y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2ivARB(const GLint* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2ivMESA(const GLint* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2sARB(GLshort x, GLshort y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2sMESA(GLshort x, GLshort y) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2svARB(const GLshort* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos2svMESA(const GLshort* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), 0.0f);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3dARB(GLdouble x, GLdouble y, GLdouble z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3dMESA(GLdouble x, GLdouble y, GLdouble z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3dvARB(const GLdouble* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3dvMESA(const GLdouble* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3fARB(GLfloat x, GLfloat y, GLfloat z) {
+  HALFSPACE_CALL(window_pos, x, y, z);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3fMESA(GLfloat x, GLfloat y, GLfloat z) {
+  HALFSPACE_CALL(window_pos, x, y, z);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3fvARB(const GLfloat* v) {
+  HALFSPACE_CALL(window_pos, v[0], v[1], v[2]);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3fvMESA(const GLfloat* v) {
+  HALFSPACE_CALL(window_pos, v[0], v[1], v[2]);
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3iARB(GLint x, GLint y, GLint z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3iMESA(GLint x, GLint y, GLint z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3ivARB(const GLint* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3ivMESA(const GLint* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3sARB(GLshort x, GLshort y, GLshort z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3sMESA(GLshort x, GLshort y, GLshort z) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(x), static_cast<GLfloat>(y), static_cast<GLfloat>(z));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3svARB(const GLshort* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
+HALFSPACE_ENTRY void GLAPIENTRY glWindowPos3svMESA(const GLshort* v) {
+  HALFSPACE_CALL(window_pos, static_cast<GLfloat>(v[0]), static_cast<GLfloat>(v[1]), static_cast<GLfloat>(v[2]));
+}
+
 HALFSPACE_ENTRY void GLAPIENTRY glDrawPixels(GLsizei width, GLsizei height, GLenum format, GLenum type, const GLvoid* pixels) {
   HALFSPACE_CALL(draw_pixels, width, height, format, type, pixels);
 }

@@ -307,6 +307,7 @@ const OperationTable kCompileTable = {
     .get_pixel_mapuiv = Compiled<&OperationTable::get_pixel_mapuiv>::pass,
     .get_pixel_mapusv = Compiled<&OperationTable::get_pixel_mapusv>::pass,
     .raster_pos = Compiled<&OperationTable::raster_pos>::compile,
+    .window_pos = Compiled<&OperationTable::window_pos>::compile,
     .draw_pixels = compile::draw_pixels,
     .bitmap = compile::bitmap,
     .copy_pixels = Compiled<&OperationTable::copy_pixels>::compile,

@@ -171,6 +171,7 @@ struct OperationTable {
   void (*get_pixel_mapuiv)(Context&, GLenum map, GLuint* values);
   void (*get_pixel_mapusv)(Context&, GLenum map, GLushort* values);
   void (*raster_pos)(Context&, GLfloat x, GLfloat y, GLfloat z, GLfloat w);
+  void (*window_pos)(Context&, GLfloat x, GLfloat y, GLfloat z);
   void (*draw_pixels)(Context&, GLsizei width, GLsizei height, GLenum format, GLenum type, const GLvoid* pixels);
   void (*bitmap)(Context&, GLsizei width, GLsizei height, GLfloat x_origin, GLfloat y_origin, GLfloat x_move, GLfloat y_move, const GLvoid* bitmap);
   void (*copy_pixels)(Context&, GLint x, GLint y, GLsizei width, GLsizei height, GLenum type);
@@ -355,6 +356,7 @@ void get_pixel_mapfv(Context&, GLenum map, GLfloat* values);
 void get_pixel_mapuiv(Context&, GLenum map, GLuint* values);
 void get_pixel_mapusv(Context&, GLenum map, GLushort* values);
 void raster_pos(Context&, GLfloat x, GLfloat y, GLfloat z, GLfloat w);
+void window_pos(Context&, GLfloat x, GLfloat y, GLfloat z);
 void draw_pixels(Context&, GLsizei width, GLsizei height, GLenum format, GLenum type, const GLvoid* pixels);
 void bitmap(Context&, GLsizei width, GLsizei height, GLfloat x_origin, GLfloat y_origin, GLfloat x_move, GLfloat y_move, const GLvoid* bitmap);
 void copy_pixels(Context&, GLint x, GLint y, GLsizei width, GLsizei height, GLenum type);

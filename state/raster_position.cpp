@@ -7,6 +7,7 @@
 #include "state/get.h"
 #include "state/operations.gen.h"
 #include "state/out_of_memory.h"
+#include "state/pixel_value.h"
 
 namespace halfspace::state {
 namespace {
@@ -75,6 +76,26 @@ void raster_pos(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
     std::copy_n(point.tex_coord, 4, to.tex_coord);
     capture_raster_position(context, point.z);
   });
+}
+
+// GL_ARB_window_pos: window coordinates as they are, no transform, no lighting, always valid (OpenGL 1.4, 2.13).
+void window_pos(Context& context, GLfloat x, GLfloat y, GLfloat z) {
+  flush_vertices(context);
+  const ViewportState& viewport = context.viewport;
+  const CurrentState& current = context.current;
+  RasterPositionState& to = context.raster_position;
+  const double depth = double(clamp_unit(z));
+  to.valid = true;
+  to.position[0] = double(x);
+  to.position[1] = double(y);
+  to.position[2] = viewport.depth_near + depth * (viewport.depth_far - viewport.depth_near);
+  to.position[3] = 1;
+  to.distance = 0;
+  to.color = {clamp_unit(current.color[0]), clamp_unit(current.color[1]), clamp_unit(current.color[2]),
+              clamp_unit(current.color[3])};
+  to.index = current.index;
+  std::copy_n(current.tex_coord, 4, to.tex_coord);
+  capture_raster_position(context, to.position[2]);
 }
 
 }  // namespace op
