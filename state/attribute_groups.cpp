@@ -2,8 +2,6 @@
 
 #include <mutex>
 
-#include "state/operations.gen.h"
-
 namespace halfspace::state {
 namespace {
 
@@ -45,7 +43,7 @@ void restore_binding(Context& context, const SavedTextures::Binding& saved, bool
 
 void SavedColorBuffer::restore(Context& context) const {
   // What was drawn to a visible buffer comes to light now: later flushes are about the other one.
-  if (value.draw_buffer != context.color_buffer.draw_buffer) op::flush(context);
+  if (value.draw_buffer != context.color_buffer.draw_buffer) execute_drawing(context);
   const GLenum read_buffer = context.color_buffer.read_buffer;
   context.color_buffer = value;
   context.color_buffer.read_buffer = read_buffer;

@@ -66,6 +66,7 @@ struct Group {
 };
 
 // A new group, or one that comes by another struct, is a line here.
+// The first alone may throw (std::bad_alloc): what is refused changes nothing.
 using AttributeGroups = std::tuple<                                                             //
     Group<GL_ACCUM_BUFFER_BIT, Whole<&Context::accum>, 0>,                                      //
     Group<GL_COLOR_BUFFER_BIT, SavedColorBuffer>,                                               //

@@ -5,6 +5,7 @@
 #include "state/context.h"
 #include "state/get.h"
 #include "state/operations.gen.h"
+#include "state/out_of_memory.h"
 
 namespace halfspace::state {
 namespace {
@@ -147,9 +148,11 @@ void draw_buffer(Context& context, GLenum mode) {
     return record_error(context, GL_INVALID_OPERATION);
   if (mode == context.color_buffer.draw_buffer) return;
   // What was drawn to a visible buffer comes to light now: later flushes are about the new one.
-  flush(context);
-  context.color_buffer.draw_buffer = mode;
-  mark_dirty(context, kDirtyFragment);
+  guard_memory(context, [&] {
+    execute_drawing(context);
+    context.color_buffer.draw_buffer = mode;
+    mark_dirty(context, kDirtyFragment);
+  });
 }
 
 void read_buffer(Context& context, GLenum mode) {

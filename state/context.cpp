@@ -3,6 +3,7 @@
 #include <new>
 
 #include "state/operations.gen.h"
+#include "state/out_of_memory.h"
 
 namespace halfspace::state {
 
@@ -47,13 +48,9 @@ void size_to_drawable(Context& context) {
   mark_dirty(context, kDirtyViewport | kDirtyRaster);
 }
 
-void finish_drawing(Context& context, const char* operation) try {
-  raster::Framebuffer* framebuffer = draw_framebuffer(context);
-  if (!framebuffer) return;
-  context.device.begin_pass(framebuffer);
-  context.drawable->finish(context.device, draw_planes(context));
-} catch (const std::bad_alloc&) {
-  record_error(context, GL_OUT_OF_MEMORY, operation);
+void finish_drawing(Context& context, const char* operation) {
+  guard_memory(
+      context, [&] { execute_drawing(context); }, operation);
 }
 
 }  // namespace
@@ -76,6 +73,13 @@ void make_current(Context* context, Drawable* drawable) {
     context->was_current = true;
     size_to_drawable(*context);
   }
+}
+
+void execute_drawing(Context& context) {
+  raster::Framebuffer* framebuffer = draw_framebuffer(context);
+  if (!framebuffer) return;
+  context.device.begin_pass(framebuffer);
+  context.drawable->finish(context.device, draw_planes(context));
 }
 
 void set_table(Context& context, const OperationTable& table) {

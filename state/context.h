@@ -109,6 +109,10 @@ extern constinit thread_local CurrentBinding current_binding __attribute__((tls_
 // changed its size.
 void make_current(Context* context, Drawable* drawable);
 
+// Executes all drawing and brings to light what can be seen without a swap: glFlush and glFinish. May throw
+// std::bad_alloc.
+void execute_drawing(Context& context);
+
 // Swaps which operations execute commands (Begin, End). Entry points reach them directly, or between NewList
 // and EndList through the table that compiles.
 void set_table(Context& context, const OperationTable& table);
