@@ -36,12 +36,12 @@ void bitmap(Context& context, GLsizei width, GLsizei height, GLfloat x_origin, G
             GLfloat x_move, GLfloat y_move, const GLvoid* bits) {
   if (width < 0 || height < 0) return record_error(context, GL_INVALID_VALUE);
   if (!context.raster_position.valid) return;  // it does not move either
-  if (draws_pixels(context, GL_BITMAP_TOKEN)) {
-    guard_memory(context,
-                 [&] { draw_bitmap(context, width, height, double(x_origin), double(y_origin), bits); });
-  }
-  context.raster_position.position[0] += double(x_move);
-  context.raster_position.position[1] += double(y_move);
+  guard_memory(context, [&] {
+    if (draws_pixels(context, GL_BITMAP_TOKEN))
+      draw_bitmap(context, width, height, double(x_origin), double(y_origin), bits);
+    context.raster_position.position[0] += double(x_move);
+    context.raster_position.position[1] += double(y_move);
+  });
 }
 
 }  // namespace op
