@@ -264,8 +264,9 @@ void Feedback::line(Vertex a, Vertex b, bool reset) {
   if (a.clip.w > 0 && b.clip.w > 0) sink_.line(result(a, false), result(b, false), reset);
 }
 
-// Sutherland and Hodgman's step. A vertex where the polygon leaves starts an edge that is not its own; one
-// where it comes back in goes on along the edge it lies on.
+// Sutherland and Hodgman's step. A vertex where the polygon comes back in goes on along the edge it lies on.
+// One where it leaves starts a new edge: of the polygon's boundary at a user plane, as outlines are drawn; no
+// edge at the frustum, where they just end.
 bool Feedback::cut_polygon(int plane) {
   scratch_.clear();
   const Vertex* previous = &polygon_.back();
@@ -276,7 +277,10 @@ bool Feedback::cut_polygon(int plane) {
       scratch_.push_back(crossing(current, d, *previous, d_previous));
       scratch_.back().edge = previous->edge;
     }
-    if (d < 0 && d_previous >= 0) scratch_.push_back(crossing(*previous, d_previous, current, d));
+    if (d < 0 && d_previous >= 0) {
+      scratch_.push_back(crossing(*previous, d_previous, current, d));
+      scratch_.back().edge = plane >= kFrustumPlanes;
+    }
     if (d >= 0) scratch_.push_back(current);
     previous = &current;
     d_previous = d;

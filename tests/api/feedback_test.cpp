@@ -172,6 +172,98 @@ TEST_F(FeedbackTest, CulledPolygonsAreNotReported) {
   EXPECT_EQ(finish(), (Values{kPoint, 8, 4}));
 }
 
+// Colours are those lighting gives, of the side that is seen.
+TEST_F(FeedbackTest, ColoursAreLit) {
+  const GLfloat white[] = {1, 1, 1, 1}, front[] = {0.25f, 0.5f, 0.75f, 1}, back[] = {0.5f, 0.25f, 0.125f, 1};
+  glLightModelfv(GL_LIGHT_MODEL_AMBIENT, white);
+  glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
+  glMaterialfv(GL_FRONT, GL_AMBIENT, front);
+  glMaterialfv(GL_BACK, GL_AMBIENT, back);
+  glEnable(GL_LIGHTING);
+  start(GL_3D_COLOR);
+  vertices(GL_POINTS, {{0, 0}});
+  vertices(GL_TRIANGLES, {{0, 0}, {0, 1}, {1, 0}});
+  const Values found = finish();
+  EXPECT_EQ((Values{found.begin(), found.begin() + 8}), (Values{kPoint, 8, 4, 0.5f, 0.25f, 0.5f, 0.75f, 1}));
+  EXPECT_EQ((Values{found.begin() + 8, found.begin() + 17}),
+            (Values{kPolygon, 3, 8, 4, 0.5f, 0.5f, 0.25f, 0.125f, 1}));
+}
+
+// Each vertex has the material that was current when it was given.
+TEST_F(FeedbackTest, MaterialsChangeBetweenVertices) {
+  const GLfloat white[] = {1, 1, 1, 1}, first[] = {0.25f, 0, 0, 1}, second[] = {0.75f, 0, 0, 1};
+  glLightModelfv(GL_LIGHT_MODEL_AMBIENT, white);
+  glEnable(GL_LIGHTING);
+  start(GL_3D_COLOR);
+  glBegin(GL_LINES);
+  glMaterialfv(GL_FRONT, GL_AMBIENT, first);
+  glVertex2f(0, 0);
+  glMaterialfv(GL_FRONT, GL_AMBIENT, second);
+  glVertex2f(1, 0);
+  glEnd();
+  EXPECT_EQ(finish(), (Values{kReset, 8, 4, 0.5f, 0.25f, 0, 0, 1, 16, 4, 0.5f, 0.75f, 0, 0, 1}));
+}
+
+TEST_F(FeedbackTest, CoordinatesAreGenerated) {
+  const GLfloat plane[] = {2, 0, 0, 1};
+  glTexGeni(GL_S, GL_TEXTURE_GEN_MODE, GL_OBJECT_LINEAR);
+  glTexGenfv(GL_S, GL_OBJECT_PLANE, plane);
+  glEnable(GL_TEXTURE_GEN_S);
+  start(GL_3D_COLOR_TEXTURE);
+  glTexCoord2f(7, 8);
+  vertices(GL_POINTS, {{0.5, 0}});
+  EXPECT_EQ(finish(), (Values{kPoint, 12, 4, 0.5f, 1, 1, 1, 1, 2, 8, 0, 1}));
+}
+
+TEST_F(FeedbackTest, UserPlanesCut) {
+  const GLdouble plane[] = {1, 0, 0, -0.5};
+  glClipPlane(GL_CLIP_PLANE3, plane);
+  glEnable(GL_CLIP_PLANE3);
+  start(GL_2D);
+  vertices(GL_POINTS, {{0.25, 0}, {0.75, 0}});
+  vertices(GL_LINES, {{0, 0}, {1, 0}, {0, 0}, {0, 1}});
+  EXPECT_EQ(finish(), (Values{kPoint, 14, 4, kReset, 12, 4, 16, 4}));
+}
+
+// Spec 3.5.4, 2.6.2: edges and points that are marked as boundary; the stipple starts anew with each polygon.
+TEST_F(FeedbackTest, PolygonModesMakeLinesAndPoints) {
+  const auto flagged = [] {
+    glBegin(GL_TRIANGLES);
+    glEdgeFlag(GL_TRUE);
+    glVertex2f(0, 0);
+    glEdgeFlag(GL_FALSE);
+    glVertex2f(1, 0);
+    glEdgeFlag(GL_TRUE);
+    glVertex2f(0, 1);
+    glEnd();
+  };
+  glPolygonMode(GL_FRONT, GL_LINE);
+  start(GL_2D);
+  flagged();
+  EXPECT_EQ(finish(), (Values{kReset, 8, 4, 16, 4, kLine, 8, 8, 8, 4}));
+  glPolygonMode(GL_FRONT, GL_POINT);
+  start(GL_2D);
+  flagged();
+  EXPECT_EQ(finish(), (Values{kPoint, 8, 4, kPoint, 8, 8}));
+  glFrontFace(GL_CW);  // now the back is seen, which is filled
+  start(GL_2D);
+  flagged();
+  EXPECT_EQ(finish(), (Values{kPolygon, 3, 8, 4, 16, 4, 8, 8}));
+}
+
+TEST_F(FeedbackTest, PixelsReportTheRasterPosition) {
+  const GLubyte pixel[4] = {};
+  start(GL_3D);
+  glRasterPos3f(0.5f, 0, 0.5f);
+  glBitmap(1, 1, 0, 0, 2, 0, pixel);
+  glDrawPixels(1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
+  glCopyPixels(0, 0, 1, 1, GL_COLOR);
+  glRasterPos2f(3, 0);  // invalid
+  glBitmap(1, 1, 0, 0, 2, 0, pixel);
+  EXPECT_EQ(finish(), (Values{GL_BITMAP_TOKEN, 12, 4, 0.75f, GL_DRAW_PIXEL_TOKEN, 14, 4, 0.75f,
+                              GL_COPY_PIXEL_TOKEN, 14, 4, 0.75f}));
+}
+
 TEST_F(FeedbackTest, PassThroughStandsBetweenThePrimitives) {
   glPassThrough(99);  // nothing outside feedback
   start(GL_2D);

@@ -82,6 +82,17 @@ TEST_F(SelectionTest, HitsOfSeveralPrimitivesAreOneRecord) {
   EXPECT_EQ(finish(1), (std::vector<GLuint>{1, 0, depth_word(0.75), 3}));
 }
 
+TEST_F(SelectionTest, ValidRasterPositionsAreHits) {
+  const GLubyte pixel[4] = {};
+  select(1);
+  glRasterPos3f(0, 0, 0.5f);
+  glLoadName(2);
+  glRasterPos3f(0, 3, 0.5f);  // invalid
+  glLoadName(3);
+  glBitmap(1, 1, 0, 0, 0, 0, pixel);
+  EXPECT_EQ(finish(1), (std::vector<GLuint>{1, depth_word(0.75), depth_word(0.75), 1}));
+}
+
 TEST_F(SelectionTest, EachChangeOfTheNamesEndsARecord) {
   EXPECT_EQ(glRenderMode(GL_SELECT), 0);
   triangle(0, 0, 0);  // no names at all
