@@ -1,9 +1,7 @@
 #include "raster/vertex/shade_point.h"
 
-#include <cmath>
 #include <cstring>
 
-#include "raster/vertex/tex_coord.h"
 #include "raster/vertex/vertex_stage.h"
 
 namespace halfspace::raster {
@@ -60,13 +58,11 @@ ShadedPoint shade_point(const DrawState& state, const VertexBatch& batch) {
   point.valid = (vertices.outcodes[0] & kOutOfView) == 0 && !cut_by_user_planes(state.clip_planes, eye);
   if (!point.valid) return point;
   to_window(state.viewport, vertices.clip[0], point);
-  point.eye_distance = std::fabs(eye[2]);
-  point.color = vertices.layout.constant_color;
-  if (vertices.layout.color >= 0) {
-    const float* c = vertices.attributes(0) + vertices.layout.color;
-    point.color = {c[0], c[1], c[2], c[3]};
-  }
-  full_tex_coord(state, one, point.tex_coord);
+  VertexAttributes attributes;
+  shade_attributes(state, one, {}, {&attributes, 1});
+  point.eye_distance = static_cast<double>(attributes.eye_distance);
+  point.color = attributes.color;
+  for (int k = 0; k < 4; ++k) point.tex_coord[k] = static_cast<double>(attributes.tex_coord[k]);
   return point;
 }
 

@@ -96,6 +96,19 @@ TEST_F(PixelDrawTest, TheRasterPositionGoesThroughTheVertexStage) {
   EXPECT_TRUE(valid());
 }
 
+TEST_F(PixelDrawTest, WindowCoordinatesAreTakenAsTheyAre) {
+  op::depth_range(gl(), 0.5, 1);
+  op::color(gl(), 0.5f, 2, -1, 1);
+  op::raster_pos(gl(), 9, 9, 9, 1);
+  EXPECT_FALSE(valid());
+  op::window_pos(gl(), -3.5f, 100, 0.25f);
+  EXPECT_TRUE(valid());
+  EXPECT_EQ((get<GLfloat, 4>(GL_CURRENT_RASTER_POSITION)), (std::array<GLfloat, 4>{-3.5f, 100, 0.625f, 1}));
+  EXPECT_EQ((get<GLfloat, 4>(GL_CURRENT_RASTER_COLOR)), (std::array<GLfloat, 4>{0.5f, 1, 0, 1}));
+  op::window_pos(gl(), 0, 0, 7);
+  EXPECT_EQ((get<GLfloat, 4>(GL_CURRENT_RASTER_POSITION))[2], 1.0f);
+}
+
 TEST_F(PixelDrawTest, PixelsLandWhereTheyBelong) {
   look_at_pixels();
   clear(0, 0, 0, 0);

@@ -197,6 +197,57 @@ TEST_F(PixelReadTest, Refuses) {
   for (uint8_t byte : out) EXPECT_EQ(byte, 0xCD);
 }
 
+TEST_F(PixelReadTest, WhatIsReadIsTransferred) {
+  clear_to(0.2f, 0.4f, 0.6f, 0.8f);
+  op::clear_depth(gl(), 0.5);
+  op::clear(gl(), GL_DEPTH_BUFFER_BIT);
+  op::pixel_transfer(gl(), GL_RED_SCALE, 2);
+  op::pixel_transfer(gl(), GL_GREEN_BIAS, 0.2);
+  op::pixel_transfer(gl(), GL_BLUE_SCALE, -1);
+  op::pixel_transfer(gl(), GL_DEPTH_SCALE, 0.5);
+  EXPECT_EQ(pixel(1, 1), (std::array<uint8_t, 4>{102, 153, 0, 204}));
+  EXPECT_NEAR(depth(1, 1), 0.25f, 1e-7f);
+  GLfloat sum = 0;  // conversion to luminance comes before any clamping
+  read(1, 1, 1, 1, GL_LUMINANCE, GL_FLOAT, &sum);
+  EXPECT_NEAR(sum, 0.4f + 0.6f - 0.6f, 1e-6f);
+}
+
+TEST_F(PixelReadTest, StencilIndices) {
+  open({.stencil_bits = 8});
+  op::clear_stencil(gl(), 0xa5);
+  op::clear(gl(), GL_STENCIL_BUFFER_BIT);
+  uint8_t byte = 0;
+  read(2, 2, 1, 1, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, &byte);
+  EXPECT_EQ(byte, 0xa5);
+  GLfloat real = 0;
+  read(2, 2, 1, 1, GL_STENCIL_INDEX, GL_FLOAT, &real);
+  EXPECT_EQ(real, 165.0f);
+  int8_t small = 0;
+  read(2, 2, 1, 1, GL_STENCIL_INDEX, GL_BYTE, &small);
+  EXPECT_EQ(small, 0x25);  // table 4.6: seven bits
+  op::pixel_transfer(gl(), GL_INDEX_SHIFT, 2);
+  GLushort wide = 0;
+  read(2, 2, 1, 1, GL_STENCIL_INDEX, GL_UNSIGNED_SHORT, &wide);
+  EXPECT_EQ(wide, 0xa5 << 2);
+  op::pixel_transfer(gl(), GL_INDEX_SHIFT, 0);
+  // Bits: pixels 1, 2 and 3 of a row go behind six that are skipped.
+  uint8_t bits[2] = {0, 0xff};
+  op::scissor(gl(), 2, 2, 1, 1);
+  op::enable(gl(), GL_SCISSOR_TEST);
+  op::clear_stencil(gl(), 2);
+  op::clear(gl(), GL_STENCIL_BUFFER_BIT);
+  op::pixel_storei(gl(), GL_PACK_SKIP_PIXELS, 6);
+  read(1, 2, 3, 1, GL_STENCIL_INDEX, GL_BITMAP, bits);
+  EXPECT_EQ(bits[0], 0x02);
+  EXPECT_EQ(bits[1], 0xff);
+  op::pixel_storei(gl(), GL_PACK_LSB_FIRST, 1);
+  bits[0] = 0, bits[1] = 0;
+  read(1, 2, 3, 1, GL_STENCIL_INDEX, GL_BITMAP, bits);
+  EXPECT_EQ(bits[0], 0x40);
+  EXPECT_EQ(bits[1], 0x01);
+  EXPECT_GL(GL_NO_ERROR);
+}
+
 TEST_F(PixelReadTest, AVisualWithoutAlphaReadsOne) {
   open({.alpha_bits = 0});
   clear_to(0.2f, 0.4f, 0.6f, 0);
