@@ -42,6 +42,7 @@ raster::PixelPacket packet_at_raster_position(Context& context) {
   packet.state = derive(context);
   packet.x = snapped(from.position[0]);
   packet.y = snapped(from.position[1]);
+  packet.stencil_mask = uint8_t(context.stencil_buffer.write_mask);
   packet.raster_color = from.color;
   packet.raster_depth = from.position[2];
   packet.raster_distance = from.distance;
