@@ -194,13 +194,7 @@ const std::vector<StateRow>& all_state_rows() {
   return rows;
 }
 
-GlSnapshot take_gl_snapshot() {
-  GlSnapshot snapshot = Taker().take();
-  // Queries that are still to come.
-  while (glGetError() != GL_NO_ERROR) {
-  }
-  return snapshot;
-}
+GlSnapshot take_gl_snapshot() { return Taker().take(); }
 
 std::string differences(const GlSnapshot& expected, const GlSnapshot& found) {
   std::ostringstream out;

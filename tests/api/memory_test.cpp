@@ -8,7 +8,6 @@
 #include <memory>
 #include <new>
 
-#include "gl/proc_address.h"
 #include "state/context.h"
 #include "tests/api/command_cases.h"
 #include "tests/api/gl_snapshot.h"
@@ -108,7 +107,7 @@ TEST(MemoryTest, EveryCommandStandsIt) {
   setenv("HALFSPACE_THREADS", "1", 1);
   int failed = 0;
   for (const Case& c : all_cases()) {
-    if (!c.valid || !gl::get_proc_address(c.command().c_str())) continue;
+    if (!c.valid) continue;
     int n = 0;
     while (n < 1000 && fails_at(c, n)) ++n;
     EXPECT_LT(n, 1000) << c.text;
