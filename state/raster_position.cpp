@@ -40,6 +40,7 @@ raster::PixelPacket packet_at_raster_position(Context& context) {
   const RasterPositionState& from = context.raster_position;
   raster::PixelPacket packet;
   packet.state = derive(context);
+  packet.stencil_mask = packet.state->stencil.write_mask;
   packet.x = snapped(from.position[0]);
   packet.y = snapped(from.position[1]);
   packet.stencil_mask = uint8_t(context.stencil_buffer.write_mask);
