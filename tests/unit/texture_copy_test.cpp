@@ -163,11 +163,11 @@ TEST_F(TextureCopyTest, WithoutAlphaPlanesAlphaIsOne) {
 // Scale, bias and maps act on what is copied, as on what glCopyPixels copies.
 TEST_F(TextureCopyTest, GoesThroughPixelTransfer) {
   image(2, 1, 0, 0x31);
-  op::pixel_transfer(gl(), GL_RED_SCALE, 0.5f);
+  op::pixel_transfer(gl(), GL_RED_SCALE, 0.5);
   op::pixel_transfer(gl(), GL_GREEN_SCALE, 2);
   op::pixel_transfer(gl(), GL_BLUE_BIAS, 1);
   op::pixel_transfer(gl(), GL_ALPHA_SCALE, 0);
-  op::pixel_transfer(gl(), GL_ALPHA_BIAS, 0.2f);
+  op::pixel_transfer(gl(), GL_ALPHA_BIAS, 0.2);
   const auto c = pixel_at(9, 8);
   const Texels expected = {uint8_t((c[0] + 1) / 2), uint8_t(std::min(255, 2 * c[1])), 255, 51};
   op::copy_tex_sub_image_2d(gl(), GL_TEXTURE_2D, 0, 1, 0, 9, 8, 1, 1);

@@ -388,7 +388,7 @@ TEST_F(TextureImageTest, TheLargestImage) {
 }
 
 TEST_F(TextureImageTest, TransferActsOnTheWayInOnly) {
-  op::pixel_transfer(gl(), GL_RED_SCALE, 0.5f);
+  op::pixel_transfer(gl(), GL_RED_SCALE, 0.5);
   op::pixel_transfer(gl(), GL_ALPHA_BIAS, 1);
   const Texels source = {100, 20, 30, 40, 7, 8, 9, 10};
   image(0, GL_RGBA, 2, 1, 0, source.data());
