@@ -132,8 +132,10 @@ void copy_sub_image(Context& context, const SubImageRequest& request, GLint x, G
                     const char* operation) {
   if (!level_exists(request.level) || request.width < 0 || request.height < 0)
     return record_error(context, GL_INVALID_VALUE, operation);
+  flush_vertices(context);  // draws look at the texture, which is locked from here on
   TextureObject& object = *bound_texture(context, request.target);
-  const TextureImage info = *find_image(context, request.target, request.level);
+  const std::lock_guard lock(object.mutex);
+  const TextureImage& info = object.images[size_t(request.level)];
   const GLenum error = check_sub_image(info, request);
   if (error != GL_NO_ERROR) return record_error(context, error, operation);
   if (request.width == 0 || request.height == 0) return;
@@ -144,7 +146,6 @@ void copy_sub_image(Context& context, const SubImageRequest& request, GLint x, G
         const SubImageRequest clipped = clip_to_buffer(context, request, rect);
         if (clipped.width == 0) return;
         BufferRows rows(context, rect, info.base_format);
-        const std::lock_guard lock(object.mutex);
         update_image(object, clipped, rows.source());
         touch_texture(context, object);
       },

@@ -1,6 +1,7 @@
 // glCopyTexImage, glCopyTexSubImage (spec 3.8.2): which pixels land where, what is refused.
 #include <array>
 #include <functional>
+#include <thread>
 #include <vector>
 
 #include "tests/unit/pixel_fixture.h"
@@ -205,6 +206,27 @@ TEST_F(TextureCopyTest, TheViewOfAnEarlierDrawStays) {
   op::copy_tex_image_2d(gl(), GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 1, 1, 0);
   ASSERT_NE(before, nullptr);
   EXPECT_NE(current_texture_view(gl())->levels[0], before->levels[0]);
+}
+
+// Another context makes the image smaller while this one copies to where it was.
+TEST_F(TextureCopyTest, SharedImagesMayChangeMeanwhile) {
+  Context other(gl().visual, &gl());
+  op::bind_texture(gl(), GL_TEXTURE_2D, 4);
+  op::bind_texture(other, GL_TEXTURE_2D, 4);
+  const auto define = [](Context& context, GLsizei side) {
+    op::tex_image_2d(context, GL_TEXTURE_2D, 0, GL_RGBA, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  };
+  define(other, 64);
+  std::thread thread([&] {
+    for (int i = 0; i < 20000; ++i) define(other, i % 2 == 0 ? 1 : 64);
+  });
+  for (int i = 0; i < 10000; ++i) {
+    op::copy_tex_sub_image_2d(gl(), GL_TEXTURE_2D, 0, 30, 44, 0, 0, 34, 20);
+    const GLenum code = error();
+    EXPECT_TRUE(code == GL_NO_ERROR || code == GL_INVALID_VALUE) << code;
+  }
+  thread.join();
+  EXPECT_EQ(query(GL_TEXTURE_WIDTH), 64);
 }
 
 TEST_F(TextureCopyTest, RefusedCallsChangeNothing) {
