@@ -67,6 +67,86 @@ bool is_allowed_inside(Command command) {
   return false;
 }
 
+bool makes_vertex(Command command) {
+  const std::string name = name_of(command);
+  return name.starts_with("glVertex") || name.starts_with("glArrayElement") || name.starts_with("glEval");
+}
+
+// Whether a stream may be played, one call after the other. A stream that is cut down must not slip from the
+// difference it had to what Mesa makes of display lists: it joins halves of primitives there, and records an
+// error for attributes that first come after a vertex.
+class Grammar {
+ public:
+  bool accepts(const Call& call) {
+    switch (call.command) {
+      case Command::glBegin:
+        return !std::exchange(inside_, true) && begin(static_cast<int>(call.arguments[0]));
+      case Command::glEnd:
+        return std::exchange(inside_, false) && is_whole();
+      case Command::glNewList:
+        return !inside_ && new_list();
+      case Command::glEndList:
+        return !inside_ && std::exchange(listing_, false);
+      default:
+        return !inside_ || accepts_inside(call.command);
+    }
+  }
+  bool is_complete() const { return !inside_ && !listing_; }
+
+ private:
+  bool begin(int mode) {
+    mode_ = mode;
+    vertices_ = 0;
+    if (!listing_) attributes_.clear();
+    return true;
+  }
+
+  bool new_list() {
+    attributes_.clear();
+    any_vertices_ = false;
+    return !std::exchange(listing_, true);
+  }
+
+  bool accepts_inside(Command command) {
+    if (!is_allowed_inside(command)) return false;
+    if (makes_vertex(command)) {
+      ++vertices_;
+      any_vertices_ = true;
+    } else if (listing_ ? !any_vertices_ : vertices_ == 0) {
+      attributes_.insert(command);
+    } else if (listing_) {
+      return attributes_.count(command) > 0;
+    }
+    return true;
+  }
+
+  bool is_whole() const {
+    switch (mode_) {
+      case GL_LINES:
+        return vertices_ >= 2 && (!listing_ || vertices_ % 2 == 0);
+      case GL_TRIANGLES:
+        return vertices_ >= 3 && (!listing_ || vertices_ % 3 == 0);
+      case GL_QUADS:
+        return vertices_ >= 4 && (!listing_ || vertices_ % 4 == 0);
+      case GL_TRIANGLE_STRIP:
+      case GL_TRIANGLE_FAN:
+      case GL_POLYGON:
+        return vertices_ >= 3;
+      case GL_QUAD_STRIP:
+        return vertices_ >= 4 && vertices_ % 2 == 0;
+      case GL_LINE_STRIP:
+      case GL_LINE_LOOP:
+        return vertices_ >= 2;
+      default:
+        return vertices_ >= 1;
+    }
+  }
+
+  bool inside_ = false, listing_ = false, any_vertices_ = false;
+  int mode_ = 0, vertices_ = 0;
+  std::set<Command> attributes_;
+};
+
 class Writer {
  public:
   template <typename Number>
@@ -119,30 +199,11 @@ void play(const Call& call, void* function) {
 }
 
 bool is_well_formed(const Stream& stream) {
-  bool inside = false, listing = false;
+  Grammar grammar;
   for (const Call& call : stream) {
-    switch (call.command) {
-      case Command::glBegin:
-        if (inside) return false;
-        inside = true;
-        break;
-      case Command::glEnd:
-        if (!inside) return false;
-        inside = false;
-        break;
-      case Command::glNewList:
-        if (listing || inside) return false;
-        listing = true;
-        break;
-      case Command::glEndList:
-        if (!listing || inside) return false;
-        listing = false;
-        break;
-      default:
-        if (inside && !is_allowed_inside(call.command)) return false;
-    }
+    if (!grammar.accepts(call)) return false;
   }
-  return !inside && !listing;
+  return grammar.is_complete();
 }
 
 std::vector<uint8_t> serialize(const Stream& stream) {

@@ -42,7 +42,8 @@ const char* name_of(Command command);
 // Calls `function`, which has the command's type.
 void play(const Call& call, void* function);
 
-// Begin and End, NewList and EndList alternate, and what GL forbids between Begin and End is not there.
+// Begin and End, NewList and EndList alternate, what GL forbids between Begin and End is not there, and
+// primitives have vertices enough.
 bool is_well_formed(const Stream& stream);
 
 std::vector<uint8_t> serialize(const Stream& stream);

@@ -119,7 +119,8 @@ TEST(Shrink, FindsTheTwoCallsThatMatter) {
   Stream stream;
   for (int i = 0; i < 30; ++i) {
     stream.push_back({Command::glLineWidth, {double(i)}, {}});
-    stream.push_back(call(Command::glBegin));
+    stream.push_back({Command::glBegin, {GL_LINE_STRIP}, {}});
+    for (int k = 0; k < 3; ++k) stream.push_back({Command::glVertex2i, {0, 0}, {}});
     stream.push_back({Command::glEdgeFlag, {double(i)}, {}});
     stream.push_back(call(Command::glEnd));
   }

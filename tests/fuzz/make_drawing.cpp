@@ -90,7 +90,7 @@ std::vector<Vertex> flat_vertices(Maker& m, GLenum mode) {
 
 void emit_attributes(Maker& m, const Vertex& v, bool colors, bool tex_coords, bool normals, bool edges) {
   if (colors) {
-    if (m.random.chance(70)) {
+    if (m.in_list || m.random.chance(70)) {
       m.call(Command::glColor4d, {v.color[0], v.color[1], v.color[2], v.color[3]});
     } else {
       const auto byte = [](double c) { return double(std::lround(c * 255)); };
@@ -103,7 +103,10 @@ void emit_attributes(Maker& m, const Vertex& v, bool colors, bool tex_coords, bo
 }
 
 void draw_immediately(Maker& m, const Shape& shape) {
-  const bool colors = m.random.chance(85), tex_coords = m.random.chance(70), normals = m.random.chance(70);
+  // Mesa's lists record an error when the set of attributes changes: there, have all of them.
+  const bool all = m.in_list;
+  const bool colors = all || m.random.chance(85), tex_coords = all || m.random.chance(70),
+             normals = all || m.random.chance(70);
   m.call(Command::glBegin, {double(shape.mode)});
   for (const Vertex& v : shape.vertices) {
     emit_attributes(m, v, colors, tex_coords, normals, !v.edge);
@@ -118,6 +121,8 @@ std::vector<float> gather(const Shape& shape, int size, Get get) {
   for (const Vertex& v : shape.vertices) {
     for (int i = 0; i < size; ++i) numbers.push_back(static_cast<float>(get(v)[i]));
   }
+  // A stream that is cut down may draw more from an array than was meant for it.
+  numbers.resize(16 * static_cast<size_t>(size));
   return numbers;
 }
 
@@ -193,10 +198,13 @@ Shape random_shape(Maker& m) {
   shape.mode = m.triangles_only ? m.random.pick<GLenum>({GL_POINTS, GL_LINES, GL_LINE_STRIP, GL_TRIANGLES,
                                                          GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN})
                                 : static_cast<GLenum>(m.random.below(10));
+  // Having compiled a loop, Mesa takes its first colour for the current one.
+  if (m.in_list && shape.mode == GL_LINE_LOOP) shape.mode = GL_LINE_STRIP;
   if (shape.mode >= GL_QUADS) {
     shape.vertices = flat_vertices(m, shape.mode);
   } else {
-    const int count = m.random.between(shape.mode >= GL_TRIANGLES ? 3 : 2, 9);
+    int count = m.random.between(shape.mode >= GL_TRIANGLES ? 3 : 2, 9);
+    if (m.in_list) count -= shape.mode == GL_LINES ? count % 2 : shape.mode == GL_TRIANGLES ? count % 3 : 0;
     for (int i = 0; i < count; ++i) shape.vertices.push_back(random_vertex(m));
   }
   return shape;

@@ -94,13 +94,14 @@ void add_texture(Maker& m, GLenum target) {
   const bool mipmaps = !m.exact && m.random.chance(40);
   // CLAMP with NEAREST is exact up to the border; with LINEAR the border is half the colour.
   const double nearest = GL_NEAREST;
-  parameter(m, target, GL_TEXTURE_MAG_FILTER,
-            m.exact ? nearest : double(m.random.pick({GL_NEAREST, GL_LINEAR})));
+  // Where magnification begins is open a little, so that both filters are the same but for mipmaps, which are
+  // nearly plain.
+  const double filter = m.exact ? nearest : double(m.random.pick({GL_NEAREST, GL_LINEAR}));
+  parameter(m, target, GL_TEXTURE_MAG_FILTER, filter);
   parameter(m, target, GL_TEXTURE_MIN_FILTER,
-            m.exact   ? nearest
-            : mipmaps ? double(m.random.pick({GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_NEAREST,
-                                              GL_NEAREST_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_LINEAR}))
-                      : double(m.random.pick({GL_NEAREST, GL_LINEAR})));
+            mipmaps ? double(m.random.pick({GL_NEAREST_MIPMAP_NEAREST, GL_LINEAR_MIPMAP_NEAREST,
+                                            GL_NEAREST_MIPMAP_LINEAR, GL_LINEAR_MIPMAP_LINEAR}))
+                    : filter);
   // Clamped, the border's share of a texel grows with the level.
   if (mipmaps) {
     parameter(m, target, GL_TEXTURE_WRAP_S, GL_REPEAT);

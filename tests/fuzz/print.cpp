@@ -176,6 +176,7 @@ int main(void) {
   OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 16, NULL);
   if (!context || !OSMesaMakeCurrent(context, pixels, GL_UNSIGNED_BYTE, kWidth, kHeight)) return 1;
   fprintf(stderr, "%s\n", (const char*)glGetString(GL_RENDERER));
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT);
   draw();
   for (GLenum error; (error = glGetError());) fprintf(stderr, "error 0x%x\n", error);
   glFinish();
