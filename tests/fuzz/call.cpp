@@ -82,7 +82,7 @@ class Grammar {
       case Command::glBegin:
         return !std::exchange(inside_, true) && begin(static_cast<int>(call.arguments[0]));
       case Command::glEnd:
-        return std::exchange(inside_, false) && is_whole();
+        return std::exchange(inside_, false) && is_whole() && (!listing_ || last_is_vertex_);
       case Command::glNewList:
         return !inside_ && new_list();
       case Command::glEndList:
@@ -109,7 +109,8 @@ class Grammar {
 
   bool accepts_inside(Command command) {
     if (!is_allowed_inside(command)) return false;
-    if (makes_vertex(command)) {
+    last_is_vertex_ = makes_vertex(command);
+    if (last_is_vertex_) {
       ++vertices_;
       any_vertices_ = true;
     } else if (listing_ ? !any_vertices_ : vertices_ == 0) {
@@ -142,7 +143,7 @@ class Grammar {
     }
   }
 
-  bool inside_ = false, listing_ = false, any_vertices_ = false;
+  bool inside_ = false, listing_ = false, any_vertices_ = false, last_is_vertex_ = false;
   int mode_ = 0, vertices_ = 0;
   std::set<Command> attributes_;
 };

@@ -121,7 +121,7 @@ TEST(Shrink, FindsTheTwoCallsThatMatter) {
     stream.push_back({Command::glLineWidth, {double(i)}, {}});
     stream.push_back({Command::glBegin, {GL_LINE_STRIP}, {}});
     for (int k = 0; k < 3; ++k) stream.push_back({Command::glVertex2i, {0, 0}, {}});
-    stream.push_back({Command::glEdgeFlag, {double(i)}, {}});
+    stream.push_back({Command::glIndexi, {double(i)}, {}});
     stream.push_back(call(Command::glEnd));
   }
   const auto fails = [](const Stream& candidate) {
@@ -129,10 +129,10 @@ TEST(Shrink, FindsTheTwoCallsThatMatter) {
     const auto has = [&](Command command, double value) {
       return std::count(candidate.begin(), candidate.end(), Call{command, {value}, {}}) > 0;
     };
-    return has(Command::glLineWidth, 7) && has(Command::glEdgeFlag, 21);
+    return has(Command::glLineWidth, 7) && has(Command::glIndexi, 21);
   };
   const Stream small = shrink(stream, fails, 10'000);
-  EXPECT_EQ(small, (Stream{{Command::glLineWidth, {7}, {}}, {Command::glEdgeFlag, {21}, {}}}));
+  EXPECT_EQ(small, (Stream{{Command::glLineWidth, {7}, {}}, {Command::glIndexi, {21}, {}}}));
 }
 
 TEST(Shrink, StopsWhenItIsTold) {

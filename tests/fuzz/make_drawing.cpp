@@ -88,7 +88,7 @@ std::vector<Vertex> flat_vertices(Maker& m, GLenum mode) {
   return vertices;
 }
 
-void emit_attributes(Maker& m, const Vertex& v, bool colors, bool tex_coords, bool normals, bool edges) {
+void emit_attributes(Maker& m, const Vertex& v, bool colors, bool tex_coords, bool normals) {
   if (colors) {
     if (m.in_list || m.random.chance(70)) {
       m.call(Command::glColor4d, {v.color[0], v.color[1], v.color[2], v.color[3]});
@@ -99,7 +99,6 @@ void emit_attributes(Maker& m, const Vertex& v, bool colors, bool tex_coords, bo
   }
   if (tex_coords) m.call(Command::glTexCoord2d, {v.tex_coord[0], v.tex_coord[1]});
   if (normals) m.call(Command::glNormal3d, {v.normal[0], v.normal[1], v.normal[2]});
-  if (edges) m.call(Command::glEdgeFlag, {double(v.edge)});
 }
 
 void draw_immediately(Maker& m, const Shape& shape) {
@@ -109,7 +108,7 @@ void draw_immediately(Maker& m, const Shape& shape) {
              normals = all || m.random.chance(70);
   m.call(Command::glBegin, {double(shape.mode)});
   for (const Vertex& v : shape.vertices) {
-    emit_attributes(m, v, colors, tex_coords, normals, !v.edge);
+    emit_attributes(m, v, colors, tex_coords, normals);
     m.call(Command::glVertex3d, {v.position[0], v.position[1], v.position[2]});
   }
   m.call(Command::glEnd);
@@ -174,12 +173,23 @@ void add_shape(Maker& m) {
 
 void add_arrays(Maker& m) { draw_arrays(m, random_shape(m)); }
 
+// Elsewhere flags are ignored, and not by Mesa.
 void add_edge_flags(Maker& m) {
+  if (m.stippled) return;
   Shape shape = random_shape(m);
+  while (shape.mode != GL_TRIANGLES && shape.mode != GL_QUADS && shape.mode != GL_POLYGON)
+    shape = random_shape(m);
   for (Vertex& v : shape.vertices) v.edge = m.random.chance(50);
+  m.polygon_points = true;
+  m.call(Command::glPointSize, {1});
   m.call(Command::glPolygonMode, {GL_FRONT_AND_BACK, double(m.random.pick({GL_LINE, GL_POINT}))});
-  draw_immediately(m, shape);
+  m.call(Command::glBegin, {double(shape.mode)});
+  for (const Vertex& v : shape.vertices) {
+    m.call(Command::glEdgeFlag, {double(v.edge)});
+    m.call(Command::glVertex3d, {v.position[0], v.position[1], v.position[2]});
+  }
   m.call(Command::glEdgeFlag, {1});
+  m.call(Command::glEnd);
 }
 
 void add_rect(Maker& m) {

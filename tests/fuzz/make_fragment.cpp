@@ -81,25 +81,26 @@ void add_clear(Maker& m) {
   m.call(Command::glClear, {mask});
 }
 
+// Small steps: what leaves [-1, 1] is undefined (4.2.4).
 void add_accumulation(Maker& m) {
   switch (m.random.below(6)) {
     case 0: {
       const std::vector<float> color = m.color();
-      m.call(Command::glClearAccum, {color[0], color[1], color[2], color[3]});
+      m.call(Command::glClearAccum, {color[0] / 2, color[1] / 2, color[2] / 2, color[3] / 2});
       m.call(Command::glClear, {GL_ACCUM_BUFFER_BIT});
       break;
     }
     case 1:
-      m.call(Command::glAccum, {GL_LOAD, m.random.real(0, 1)});
+      m.call(Command::glAccum, {GL_LOAD, m.random.real(0, 0.5)});
       break;
     case 2:
-      m.call(Command::glAccum, {GL_ACCUM, m.random.real(-0.5, 0.5)});
+      m.call(Command::glAccum, {GL_ACCUM, m.random.real(-0.0625, 0.0625)});
       break;
     case 3:
       m.call(Command::glAccum, {GL_MULT, m.random.real(0, 1)});
       break;
     case 4:
-      m.call(Command::glAccum, {GL_ADD, m.random.real(-0.5, 0.5)});
+      m.call(Command::glAccum, {GL_ADD, m.random.real(-0.0625, 0.0625)});
       break;
     default:
       break;

@@ -50,6 +50,13 @@ std::vector<float> patch(Maker& m, int u_order, int v_order, int size, bool posi
   return points;
 }
 
+// With Mesa, current values are what was evaluated last.
+void restore_current(Maker& m) {
+  const std::vector<float> color = m.color();
+  m.call(Command::glColor4f, {color[0], color[1], color[2], color[3]});
+  m.call(Command::glNormal3f, {0, 0, 1});
+}
+
 // Finely divided: between the corners of a grid a curve is straight in every renderer, but colours are not
 // linear.
 void add_map_1(Maker& m) {
@@ -68,6 +75,7 @@ void add_map_1(Maker& m) {
     for (int i = 0; i <= 10; ++i) m.call(Command::glEvalCoord1f, {i / 10.0});
     m.call(Command::glEnd);
   }
+  restore_current(m);
 }
 
 void add_map_2(Maker& m) {
@@ -76,15 +84,21 @@ void add_map_2(Maker& m) {
          {GL_MAP2_VERTEX_3, 0, 1, 3, double(u_order), 0, 1, double(3 * u_order), double(v_order), 0},
          patch(m, u_order, v_order, 3, true));
   m.set_enabled(GL_MAP2_VERTEX_3, true);
-  const bool colors = !m.exact && m.random.chance(50);
+  // The colour is linear, however a quadrilateral is cut.
+  // Which corner colours a flat quadrilateral is another matter: Mesa has triangles.
+  const bool colors = !m.exact && !m.flat && m.random.chance(50);
+  if (colors) m.call(Command::glShadeModel, {GL_SMOOTH});
   if (colors)
-    m.call(Command::glMap2f, {GL_MAP2_COLOR_4, 0, 1, 4, 2, 0, 1, 8, 2, 0}, patch(m, 2, 2, 4, false));
+    m.call(Command::glMap2f, {GL_MAP2_COLOR_4, 0, 1, 4, 2, 0, 1, 8, 1, 0}, patch(m, 2, 1, 4, false));
   m.set_enabled(GL_MAP2_COLOR_4, colors);
   if (m.random.chance(50)) m.set_enabled(GL_AUTO_NORMAL, m.random.chance(70));
   const int u_steps = m.random.between(4, 12), v_steps = m.random.between(4, 12);
   m.call(Command::glMapGrid2f, {double(u_steps), 0, 1, double(v_steps), 0, 1});
-  const double mode = m.triangles_only ? GL_LINE : m.random.pick({GL_POINT, GL_LINE, GL_FILL});
+  // Mesa fills with triangles, whose diagonals show when polygons are drawn as lines.
+  const double mode =
+      m.triangles_only || m.polygon_points ? GL_LINE : m.random.pick({GL_POINT, GL_LINE, GL_FILL});
   m.call(Command::glEvalMesh2, {mode, 0, double(u_steps), 0, double(v_steps)});
+  restore_current(m);
 }
 
 }  // namespace

@@ -7,8 +7,16 @@ namespace {
 void set_raster_position(Maker& m) {
   const std::vector<float> color = m.color();
   m.call(Command::glColor4f, {color[0], color[1], color[2], color[3]});
+  m.set_enabled(GL_LIGHTING, false);
   m.call(Command::glRasterPos3f,
          {m.random.real(-0.9, 0.7), m.random.real(-0.9, 0.7), m.random.real(-0.5, 0.5)});
+  // Mesa does not texture what it copies, nor with the raster position's coordinates.
+  m.set_enabled(GL_TEXTURE_1D, false);
+  m.set_enabled(GL_TEXTURE_2D, false);
+  // Nor does it take the raster position's distance for fog, light it as it lights a point, or mind the
+  // colour mask when it copies.
+  m.set_enabled(GL_FOG, false);
+  m.call(Command::glColorMask, {1, 1, 1, 1});
 }
 
 void set_unpacking(Maker& m) {
@@ -46,13 +54,16 @@ void add_bitmap(Maker& m) {
   set_unpacking(m);
   const int width = m.random.between(1, 40), height = m.random.between(1, 16);
   std::vector<uint8_t> bits(static_cast<size_t>(((width + 63) / 64) * 8 * height));
-  for (uint8_t& byte : bits) byte = static_cast<uint8_t>(m.random.bits());
+  // In lumps: a bitmap may be a pixel off, positions being rounded down.
+  for (uint8_t& byte : bits) byte = m.random.pick<uint8_t>({0x00, 0xFF, 0xF0, 0x0F});
   const int repeats = m.random.between(1, 3);
   for (int i = 0; i < repeats; ++i) {
     m.call(Command::glBitmap,
            {double(width), double(height), m.random.real(0, 4), m.random.real(0, 4), m.random.real(-10, 40),
             m.random.real(-4, 10), 0},
            bits);
+    // Else Mesa gathers bitmaps, and draws once where they overlap.
+    m.call(Command::glFlush);
   }
 }
 
@@ -86,6 +97,7 @@ void add_zoom(Maker& m) {
 }
 
 void add_transfer(Maker& m) {
+  m.transfers = true;
   if (m.random.chance(70)) {
     const double name = m.random.pick({GL_RED_SCALE, GL_GREEN_SCALE, GL_BLUE_SCALE, GL_ALPHA_SCALE,
                                        GL_RED_BIAS, GL_GREEN_BIAS, GL_BLUE_BIAS, GL_ALPHA_BIAS});

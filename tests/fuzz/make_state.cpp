@@ -49,8 +49,13 @@ void add_clip_plane(Maker& m) {
   m.set_enabled(static_cast<GLenum>(plane), m.random.chance(75));
 }
 
+void draw_flat(Maker& m) {
+  m.flat = true;
+  m.call(Command::glShadeModel, {GL_FLAT});
+}
+
 void add_shade_model(Maker& m) {
-  m.call(Command::glShadeModel, {double(m.exact || m.random.chance(50) ? GL_FLAT : GL_SMOOTH)});
+  m.call(Command::glShadeModel, {double(m.exact || m.flat || m.random.chance(50) ? GL_FLAT : GL_SMOOTH)});
 }
 
 void add_culling(Maker& m) {
@@ -59,7 +64,15 @@ void add_culling(Maker& m) {
   m.call(Command::glFrontFace, {double(m.random.pick({GL_CW, GL_CCW}))});
 }
 
+// Not with stippled lines: where two polygons meet their edge is drawn twice, each time out of step in
+// another way.
 void add_polygon_mode(Maker& m) {
+  if (m.stippled) return;
+  // Whether there is a point where the volume cuts an edge, is open: let it be small.
+  m.polygon_points = true;
+  m.call(Command::glPointSize, {1});
+  // In which order the edges of a polygon are drawn is open, too.
+  draw_flat(m);
   m.call(Command::glPolygonMode, {double(m.random.pick({GL_FRONT, GL_BACK, GL_FRONT_AND_BACK})),
                                   double(m.random.pick({GL_POINT, GL_LINE, GL_FILL}))});
 }
@@ -67,13 +80,15 @@ void add_polygon_mode(Maker& m) {
 void add_polygon_stipple(Maker& m) {
   std::vector<uint8_t> pattern(128);
   for (uint8_t& byte : pattern) byte = static_cast<uint8_t>(m.random.bits());
+  m.call(Command::glPixelStorei, {GL_UNPACK_ALIGNMENT, 1});
   m.call(Command::glPolygonStipple, {0}, pattern);
   m.set_enabled(GL_POLYGON_STIPPLE, m.random.chance(75));
 }
 
-// The unit of the offset is the implementation's, so offsets are nothing or very much.
+// The unit of the offset is the implementation's: enough to part what lies in one plane, too little to be
+// seen elsewhere.
 void add_polygon_offset(Maker& m) {
-  m.call(Command::glPolygonOffset, {0, m.random.pick({0.0, 4e6, -4e6})});
+  m.call(Command::glPolygonOffset, {0, m.random.pick({0.0, 4096.0, -4096.0})});
   m.set_enabled(static_cast<GLenum>(
                     m.random.pick({GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT})),
                 m.random.chance(75));
@@ -84,13 +99,20 @@ void add_line(Maker& m) {
   if (m.random.chance(50)) m.call(Command::glLineWidth, {double(m.random.between(1, 5))});
 }
 
-// With a factor of one a pattern out of step by a pixel is explained by its neighbours; runs of more are not.
+// Mesa counts lengths, not pixels, so that its pattern is soon out of step: patterns with no run longer than
+// two.
+// And attributes are not in perspective there.
 void add_line_stipple(Maker& m) {
-  m.call(Command::glLineStipple, {1, double(m.random.bits() & 0xffff)});
+  if (m.polygon_points) return;
+  m.stippled = true;
+  draw_flat(m);
+  m.call(Command::glLineStipple, {1, double(m.random.pick({0xAAAA, 0x3333, 0x6DB6, 0x9249, 0x5555}))});
   m.set_enabled(GL_LINE_STIPPLE, m.random.chance(75));
 }
 
-void add_point_size(Maker& m) { m.call(Command::glPointSize, {double(m.random.between(1, 9))}); }
+void add_point_size(Maker& m) {
+  if (!m.polygon_points) m.call(Command::glPointSize, {double(m.random.between(1, 9))});
+}
 
 void add_smoothing(Maker& m) {
   m.set_enabled(static_cast<GLenum>(m.random.pick({GL_POINT_SMOOTH, GL_LINE_SMOOTH})), m.random.chance(75));
@@ -100,8 +122,10 @@ void add_smoothing(Maker& m) {
 
 void add_push_attributes(Maker& m) {
   if (m.pushed_attributes >= 12) return;
-  const double mask = m.random.chance(40) ? GL_ALL_ATTRIB_BITS : double(m.random.bits() & 0xfffff);
-  m.call(Command::glPushAttrib, {mask});
+  uint32_t mask = m.random.chance(40) ? GL_ALL_ATTRIB_BITS : m.random.bits() & 0xfffff;
+  // Of current values saved twice, Mesa brings back the wrong ones.
+  if (m.pushed_attributes > 0) mask &= ~uint32_t{GL_CURRENT_BIT};
+  m.call(Command::glPushAttrib, {double(mask)});
   ++m.pushed_attributes;
 }
 
@@ -109,6 +133,7 @@ void add_pop_attributes(Maker& m) {
   if (m.pushed_attributes == 0) return;
   m.call(Command::glPopAttrib);
   --m.pushed_attributes;
+  if (m.flat) draw_flat(m);
 }
 
 }  // namespace

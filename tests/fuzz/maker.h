@@ -74,6 +74,13 @@ struct Maker {
   // GL_DECAL is undefined but for RGB and RGBA: either there is no GL_DECAL in a stream, or nothing else.
   bool decal = false;
   bool in_list = false;
+  // No smooth shading from here on.
+  bool flat = false;
+  bool stippled = false;
+  // Pixels are changed on their way.
+  bool transfers = false;
+  // Polygons may be drawn as points or lines.
+  bool polygon_points = false;
   int pushed_matrices = 0, pushed_attributes = 0, pushed_client_attributes = 0;
   std::vector<double> lists;  // names of display lists that can be called
 
