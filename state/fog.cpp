@@ -13,9 +13,9 @@ float clamp_unit(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // NaN b
 
 // `value` as a program that has floats only says it; any float, not just an enumerant.
 void set_mode(Context& context, GLfloat value) {
-  for (const GLenum mode : {GL_LINEAR, GL_EXP, GL_EXP2}) {
+  for (const GLint mode : {GL_LINEAR, GL_EXP, GL_EXP2}) {
     if (value != GLfloat(mode)) continue;
-    context.fog.mode = mode;
+    context.fog.mode = GLenum(mode);
     return;
   }
   record_error(context, GL_INVALID_ENUM, "fog");

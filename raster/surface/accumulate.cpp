@@ -27,7 +27,7 @@ float unit_of(double units) {
 
 }  // namespace
 
-int16_t accum_fixed(double value) { return saturated(to_units(value)); }
+int16_t accum_fixed(float value) { return saturated(to_units(static_cast<double>(value))); }
 
 // Pixels [x0, x1) x [y0, y1) of the block.
 struct Accumulation::Block {
@@ -98,7 +98,7 @@ void Accumulation::take_colors(const Block& block) const {
   block.for_pixels([&](int i) {
     for (int c = 0; c < 4; ++c) {
       int16_t& sum = sums[i * 4 + c];
-      const double color = channels[c * kBlockPixels + i];
+      const auto color = static_cast<double>(channels[c * kBlockPixels + i]);
       sum = saturated((adds ? sum : 0) + to_units(static_cast<double>(command_.value) * color));
     }
   });
@@ -106,7 +106,7 @@ void Accumulation::take_colors(const Block& block) const {
 
 void Accumulation::change(const Block& block) const {
   int16_t* sums = fb_.accum_tile(block.tile) + block.block * kBlockPixels * 4;
-  const double value = command_.value;
+  const auto value = static_cast<double>(command_.value);
   const int32_t term = to_units(value);
   const bool adds = command_.op == AccumOp::add;
   block.for_pixels([&](int i) {
@@ -119,7 +119,7 @@ void Accumulation::change(const Block& block) const {
 
 void Accumulation::give_back(const Block& block, int plane) const {
   const int16_t* sums = fb_.accum_tile(block.tile) + block.block * kBlockPixels * 4;
-  const double value = command_.value;
+  const auto value = static_cast<double>(command_.value);
   const ColorMask& mask = command_.color_mask;
   const bool on[4] = {mask.r, mask.g, mask.b, mask.a};
   if (fb_.format == ColorFormat::rgba8) {

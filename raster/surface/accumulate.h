@@ -9,7 +9,7 @@ namespace halfspace::raster {
 // The accumulation buffer's fixed point: this is 1.0.
 inline constexpr int kAccumOne = 32767;
 // Rounded to nearest, clamped to [-1, 1].
-int16_t accum_fixed(double value);
+int16_t accum_fixed(float value);
 
 // What holds for all tiles of one glAccum.
 class Accumulation {

@@ -389,5 +389,60 @@ TEST_F(OsmesaTest, TwoContextsTakeTurns) {
   EXPECT_EQ(buffer_[4], 51) << "and its picture is still there";
 }
 
+GLint integer(GLenum name) {
+  GLint value = -1;
+  glGetIntegerv(name, &value);
+  return value;
+}
+
+void draw_square(float z) {
+  glBegin(GL_QUADS);
+  glVertex3f(-1, -1, z);
+  glVertex3f(1, -1, z);
+  glVertex3f(1, 1, z);
+  glVertex3f(-1, 1, z);
+  glEnd();
+}
+
+// What is used of a buffer that was not asked for does nothing.
+TEST(OsmesaAncillary, BuffersAreThereAsAskedFor) {
+  for (const bool asked : {false, true}) {
+    const int bits = asked ? 1 : 0;  // as many as we have, or none
+    const Context context(OSMesaCreateContextExt(OSMESA_RGBA, bits, bits, bits, nullptr));
+    std::vector<GLubyte> pixel(4);
+    ASSERT_TRUE(OSMesaMakeCurrent(context.handle, pixel.data(), GL_UNSIGNED_BYTE, 1, 1));
+    assert_halfspace();
+    EXPECT_EQ(integer(GL_DEPTH_BITS), asked ? 24 : 0);
+    EXPECT_EQ(integer(GL_STENCIL_BITS), asked ? 8 : 0);
+    for (const GLenum name : {GL_ACCUM_RED_BITS, GL_ACCUM_GREEN_BITS, GL_ACCUM_BLUE_BITS, GL_ACCUM_ALPHA_BITS})
+      EXPECT_EQ(integer(name), asked ? 16 : 0);
+
+    glClearStencil(0x1ff);  // the buffer's eight bits of it
+    glClear(GL_STENCIL_BUFFER_BIT);
+    clear_all(0, 0, 0, 0);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_NOTEQUAL, 0xff, 0xff);
+    draw_square(0);
+    glFinish();
+    EXPECT_EQ(int(pixel[0]), asked ? 0 : 255) << "without a stencil buffer the test always passes";
+    glStencilFunc(GL_EQUAL, 1000, 0xff);  // clamped to 255
+    draw_square(0);
+    glFinish();
+    EXPECT_EQ(int(pixel[0]), 255);
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+
+    glDisable(GL_STENCIL_TEST);
+    clear_all(0.2f, 0.4f, 0.6f, 0.8f);
+    glAccum(GL_LOAD, 0.5f);
+    EXPECT_EQ(glGetError(), GLenum(asked ? GL_NO_ERROR : GL_INVALID_OPERATION));
+    if (!asked) continue;
+    glAccum(GL_ACCUM, 0.3f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glAccum(GL_RETURN, 1);
+    glFinish();
+    EXPECT_EQ(pixel, (std::vector<GLubyte>{41, 82, 122, 163}));  // 0.8 of 51, 102, 153, 204
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::test

@@ -15,10 +15,10 @@ using namespace raster;
 constexpr int kSize = 128;
 
 long double factor(const FogState& fog, long double distance) {
-  const long double density = fog.density;
+  const auto density = (long double)(fog.density), start = (long double)(fog.start), end = (long double)(fog.end);
   switch (fog.mode) {
     case FogMode::linear:
-      return std::fmin(std::fmax((fog.end - distance) / (fog.end - (long double)(fog.start)), 0), 1);
+      return std::fmin(std::fmax((end - distance) / (end - start), 0.0L), 1.0L);
     case FogMode::exp:
       return std::exp(-density * distance);
     case FogMode::exp2:
@@ -95,7 +95,7 @@ void check(const Picture& picture, const FogState& fog, const Color& own,
   for (int x = 0; x < kSize; ++x) {
     const long double share = factor(fog, depth(x));
     for (int k = 0; k < 3; ++k) {
-      const long double exact = (share * c[k] + (1 - share) * f[k]) * 255;
+      const long double exact = (share * (long double)(c[k]) + (1 - share) * (long double)(f[k])) * 255;
       ASSERT_NEAR(double(picture.pixel(x, 77)[k]), double(exact), kSlack) << int(fog.mode) << " at " << x;
     }
   }
@@ -131,7 +131,7 @@ TEST(Fog, IsRightInPerspective) {
     canvas.draw(state, Primitive::quads, wall);
     ASSERT_NO_FATAL_FAILURE(check(canvas.read(), fog, wall[0].color, [&](int x) {
       const long double ndc = ((long double)(x) + 0.5L) / (kSize / 2) - 1;
-      return std::fabs(a / (1 + b * ndc));
+      return std::fabs((long double)(a) / (1 + (long double)(b) * ndc));
     }));
   }
 }
