@@ -414,8 +414,8 @@ TEST(OsmesaAncillary, BuffersAreThereAsAskedFor) {
     assert_halfspace();
     EXPECT_EQ(integer(GL_DEPTH_BITS), asked ? 24 : 0);
     EXPECT_EQ(integer(GL_STENCIL_BITS), asked ? 8 : 0);
-    for (const GLenum name : {GL_ACCUM_RED_BITS, GL_ACCUM_GREEN_BITS, GL_ACCUM_BLUE_BITS, GL_ACCUM_ALPHA_BITS})
-      EXPECT_EQ(integer(name), asked ? 16 : 0);
+    for (const int name : {GL_ACCUM_RED_BITS, GL_ACCUM_GREEN_BITS, GL_ACCUM_BLUE_BITS, GL_ACCUM_ALPHA_BITS})
+      EXPECT_EQ(integer(GLenum(name)), asked ? 16 : 0);
 
     glClearStencil(0x1ff);  // the buffer's eight bits of it
     glClear(GL_STENCIL_BUFFER_BIT);
