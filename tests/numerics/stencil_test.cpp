@@ -179,6 +179,26 @@ TEST(Stencil, HiddenBlocksAreMarked) {
   EXPECT_EQ(canvas.device().statistics().fragments, before);
 }
 
+// What the stencil test keeps out does not hide what comes later.
+TEST(Stencil, RefusedFragmentsLeaveNoCoarseDepth) {
+  Canvas canvas(kSize, kSize);
+  DrawState state = plain_state(kSize, kSize);
+  state.depth = {true, CompareFunc::less, true};
+  state.stencil.test = true;
+  state.stencil.func = CompareFunc::never;
+  const auto cover = [&](float z) {
+    const std::array<Vertex, 3> corners{{{-1, -1, z}, {3, -1, z}, {-1, 3, z}}};
+    canvas.draw_plain(state, Primitive::triangles, corners, {1, 1, 1, 1});
+  };
+  state.stencil.fail = StencilOp::increment;
+  cover(-0.5f);
+  EXPECT_EQ(int(canvas.read().pixel(40, 40)[0]), 0);
+  state.stencil.test = false;
+  cover(0.5f);
+  const Picture picture = canvas.read();
+  EXPECT_EQ(picture.rgba, std::vector<uint8_t>(picture.rgba.size(), 255));
+}
+
 // Clears under a mask and a scissor.
 TEST(Stencil, ClearsArePartOfThePicture) {
   Canvas canvas(kSize, kSize);
