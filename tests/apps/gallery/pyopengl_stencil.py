@@ -1,4 +1,7 @@
 """PyOpenGL, which looks GL up through ctypes: a teapot and its reflection, kept inside the floor by the stencil buffer."""
+import OpenGL
+
+OpenGL.ERROR_CHECKING = False  # a recorder's own queries of later versions would be taken for errors of ours
 from OpenGL.GL import *
 from OpenGL.GLU import gluLookAt, gluPerspective
 from OpenGL.GLUT import *
