@@ -1,4 +1,4 @@
-// Calls of every command of OpenGL 1.1, right and wrong: refusals.inl as data.
+// Calls of every command of OpenGL 1.1, right and wrong: the refusals_*.inl as data.
 #pragma once
 
 #include <GL/gl.h>
@@ -48,7 +48,8 @@ inline const std::vector<Case>& all_cases() {
 #define VALID_AFTER(setup, ...) CASE(#__VA_ARGS__, true, GL_NO_ERROR, setup, __VA_ARGS__)
 #define BAD(error, ...) CASE(#__VA_ARGS__, false, error, 0, __VA_ARGS__)
 #define BAD_AFTER(error, setup, ...) CASE(#__VA_ARGS__, false, error, setup, __VA_ARGS__)
-#include "tests/api/refusals.inl"
+#include "tests/api/refusals_a_l.inl"
+#include "tests/api/refusals_m_z.inl"
 #undef CASE
 #undef VALID
 #undef VALID_AFTER
