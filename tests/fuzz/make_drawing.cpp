@@ -175,13 +175,12 @@ void add_arrays(Maker& m) { draw_arrays(m, random_shape(m)); }
 
 // Elsewhere flags are ignored, and not by Mesa.
 void add_edge_flags(Maker& m) {
-  if (m.stippled) return;
+  if (m.stippled || !m.lists.empty()) return;
   Shape shape = random_shape(m);
   while (shape.mode != GL_TRIANGLES && shape.mode != GL_QUADS && shape.mode != GL_POLYGON)
     shape = random_shape(m);
   for (Vertex& v : shape.vertices) v.edge = m.random.chance(50);
-  m.polygon_points = true;
-  m.call(Command::glPointSize, {1});
+  prepare_for_edges(m);
   m.call(Command::glPolygonMode, {GL_FRONT_AND_BACK, double(m.random.pick({GL_LINE, GL_POINT}))});
   m.call(Command::glBegin, {double(shape.mode)});
   for (const Vertex& v : shape.vertices) {
@@ -210,6 +209,9 @@ Shape random_shape(Maker& m) {
                                 : static_cast<GLenum>(m.random.below(10));
   // Having compiled a loop, Mesa takes its first colour for the current one.
   if (m.in_list && shape.mode == GL_LINE_LOOP) shape.mode = GL_LINE_STRIP;
+  // Mesa joins the strips of a list by triangles without area, whose edges show.
+  if (m.in_list && m.polygon_points && (shape.mode == GL_TRIANGLE_STRIP || shape.mode == GL_QUAD_STRIP))
+    shape.mode = GL_TRIANGLE_FAN;
   if (shape.mode >= GL_QUADS) {
     shape.vertices = flat_vertices(m, shape.mode);
   } else {

@@ -69,7 +69,8 @@ void add_map_1(Maker& m) {
   if (m.random.chance(50)) {
     const int steps = m.random.between(2, 20);
     m.call(Command::glMapGrid1f, {double(steps), 0, 1});
-    m.call(Command::glEvalMesh1, {double(m.random.pick({GL_POINT, GL_LINE})), 0, double(steps)});
+    m.call(Command::glEvalMesh1,
+           {double(m.stippled ? GL_POINT : m.random.pick({GL_POINT, GL_LINE})), 0, double(steps)});
   } else {
     m.call(Command::glBegin, {GL_LINE_STRIP});
     for (int i = 0; i <= 10; ++i) m.call(Command::glEvalCoord1f, {i / 10.0});
@@ -94,9 +95,11 @@ void add_map_2(Maker& m) {
   if (m.random.chance(50)) m.set_enabled(GL_AUTO_NORMAL, m.random.chance(70));
   const int u_steps = m.random.between(4, 12), v_steps = m.random.between(4, 12);
   m.call(Command::glMapGrid2f, {double(u_steps), 0, 1, double(v_steps), 0, 1});
-  // Mesa fills with triangles, whose diagonals show when polygons are drawn as lines.
-  const double mode =
-      m.triangles_only || m.polygon_points ? GL_LINE : m.random.pick({GL_POINT, GL_LINE, GL_FILL});
+  // Stippled lines cross here, each out of step in another way; and Mesa fills with triangles, whose
+  // diagonals show when polygons are drawn as lines.
+  const double mode = m.stippled                             ? GL_POINT
+                      : m.triangles_only || m.polygon_points ? GL_LINE
+                                                             : m.random.pick({GL_POINT, GL_LINE, GL_FILL});
   m.call(Command::glEvalMesh2, {mode, 0, double(u_steps), 0, double(v_steps)});
   restore_current(m);
 }

@@ -67,12 +67,8 @@ void add_culling(Maker& m) {
 // Not with stippled lines: where two polygons meet their edge is drawn twice, each time out of step in
 // another way.
 void add_polygon_mode(Maker& m) {
-  if (m.stippled) return;
-  // Whether there is a point where the volume cuts an edge, is open: let it be small.
-  m.polygon_points = true;
-  m.call(Command::glPointSize, {1});
-  // In which order the edges of a polygon are drawn is open, too.
-  draw_flat(m);
+  if (m.stippled || !m.lists.empty()) return;
+  prepare_for_edges(m);
   m.call(Command::glPolygonMode, {double(m.random.pick({GL_FRONT, GL_BACK, GL_FRONT_AND_BACK})),
                                   double(m.random.pick({GL_POINT, GL_LINE, GL_FILL}))});
 }
@@ -137,6 +133,16 @@ void add_pop_attributes(Maker& m) {
 }
 
 }  // namespace
+
+// Whether there is a point where the volume cuts an edge, is open: let it be small. So is the order in which
+// the edges of a polygon are drawn: let them have one colour.
+void prepare_for_edges(Maker& m) {
+  m.polygon_points = true;
+  m.call(Command::glPointSize, {1});
+  draw_flat(m);
+  m.set_enabled(GL_TEXTURE_1D, false);
+  m.set_enabled(GL_TEXTURE_2D, false);
+}
 
 const std::vector<Feature>& state_features() {
   static const std::vector<Feature> kFeatures = {

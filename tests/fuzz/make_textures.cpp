@@ -112,7 +112,7 @@ void add_texture(Maker& m, GLenum target) {
   const int width = 1 << m.random.between(2, 5),
             height = target == GL_TEXTURE_1D ? 1 : 1 << m.random.between(2, 5);
   upload(m, target, width, height, mipmaps);
-  m.set_enabled(target, m.random.chance(85));
+  m.set_enabled(target, !m.polygon_points && m.random.chance(85));
 }
 
 void add_texture_1d(Maker& m) { add_texture(m, GL_TEXTURE_1D); }
@@ -155,7 +155,7 @@ void add_copy_image(Maker& m) {
           double(m.decal ? m.random.pick({GL_RGB8, GL_RGBA8})
                          : m.random.pick({GL_RGB8, GL_RGBA8, GL_LUMINANCE8, GL_ALPHA8})),
           double(m.random.below(60)), double(m.random.below(50)), 16, 16, 0});
-  m.set_enabled(GL_TEXTURE_2D, true);
+  m.set_enabled(GL_TEXTURE_2D, !m.polygon_points);
 }
 
 }  // namespace

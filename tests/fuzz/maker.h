@@ -125,6 +125,8 @@ const std::vector<Feature>& list_features();
 // By one of the ways GL has: immediate mode, arrays, elements.
 void draw_shape(Maker& maker, const Shape& shape);
 Shape random_shape(Maker& maker);
+// Before polygons are drawn as lines or points.
+void prepare_for_edges(Maker& maker);
 
 // Everything above.
 std::vector<Feature> all_features();

@@ -75,10 +75,15 @@ size_t closing(const Units& units, size_t at) {
   return units.size();
 }
 
+// Some streams draw flat to leave out what is open, so that stays.
+long flat_calls(const Stream& stream) {
+  return std::count(stream.begin(), stream.end(), Call{Command::glShadeModel, {GL_FLAT}, {}});
+}
+
 class Shrinker {
  public:
   Shrinker(const Stream& stream, const std::function<bool(const Stream&)>& fails, int tries)
-      : units_(split(stream)), fails_(fails), tries_(tries) {}
+      : units_(split(stream)), flat_calls_(flat_calls(stream)), fails_(fails), tries_(tries) {}
 
   Stream run() {
     for (bool smaller = true; smaller && tries_ > 0;) {
@@ -92,7 +97,7 @@ class Shrinker {
  private:
   bool accept(Units candidate) {
     const Stream stream = join(candidate);
-    if (tries_ <= 0 || !is_well_formed(stream)) return false;
+    if (tries_ <= 0 || !is_well_formed(stream) || flat_calls(stream) != flat_calls_) return false;
     --tries_;
     if (!fails_(stream)) return false;
     units_ = std::move(candidate);
@@ -125,6 +130,7 @@ class Shrinker {
   }
 
   Units units_;
+  long flat_calls_;
   const std::function<bool(const Stream&)>& fails_;
   int tries_;
 };
