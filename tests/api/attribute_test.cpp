@@ -1,6 +1,7 @@
 // Each bit of glPushAttrib and glPushClientAttrib brings back its group, all of it and nothing else
 // (spec 6.1.14; which group a value is of: spec tables 6.5 to 6.27).
 #include <cstring>
+#include <initializer_list>
 
 #include "tests/api/gl_snapshot.h"
 #include "tests/api/osmesa_context.h"
@@ -52,10 +53,10 @@ class Setter {
   void set_raster_position() const {
     glPushAttrib(GL_ENABLE_BIT | GL_TRANSFORM_BIT);
     for (GLenum i = 0; i < 6; ++i) glDisable(GL_CLIP_PLANE0 + i);
-    for (const GLenum cap :
-         {GL_TEXTURE_GEN_S, GL_TEXTURE_GEN_T, GL_TEXTURE_GEN_R, GL_TEXTURE_GEN_Q, GL_LIGHTING})
+    for (const GLenum cap : std::initializer_list<GLenum>{GL_TEXTURE_GEN_S, GL_TEXTURE_GEN_T,
+                                                          GL_TEXTURE_GEN_R, GL_TEXTURE_GEN_Q, GL_LIGHTING})
       glDisable(cap);
-    for (const GLenum mode : {GL_TEXTURE, GL_PROJECTION, GL_MODELVIEW}) {
+    for (const GLenum mode : std::initializer_list<GLenum>{GL_TEXTURE, GL_PROJECTION, GL_MODELVIEW}) {
       glMatrixMode(mode);
       glLoadIdentity();
     }
@@ -102,7 +103,7 @@ class Setter {
     glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, pick(1, 0));
     glShadeModel(pick_enum(GL_FLAT, GL_SMOOTH));
     glColorMaterial(pick_enum(GL_FRONT, GL_BACK), GL_EMISSION);
-    for (const GLenum face : {GL_FRONT, GL_BACK}) {
+    for (const GLenum face : std::initializer_list<GLenum>{GL_FRONT, GL_BACK}) {
       const int n = face == GL_FRONT ? 2 : 7;
       glMaterialfv(face, GL_AMBIENT, unit(n).data());
       glMaterialfv(face, GL_DIFFUSE, unit(n + 1).data());
@@ -132,8 +133,8 @@ class Setter {
     std::array<GLubyte, 128> stipple;
     for (size_t i = 0; i < stipple.size(); ++i) stipple[i] = static_cast<GLubyte>(i * pick(3u, 5u));
     glPushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
-    for (const GLenum name :
-         {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_LSB_FIRST})
+    for (const GLenum name : std::initializer_list<GLenum>{GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
+                                                           GL_UNPACK_SKIP_PIXELS, GL_UNPACK_LSB_FIRST})
       glPixelStorei(name, 0);
     glPolygonStipple(stipple.data());
     glPopClientAttrib();
@@ -146,7 +147,7 @@ class Setter {
 
   // One object a target and set, so that the bindings differ; its parameters are what the other set has not.
   void set_textures() const {
-    for (const GLenum target : {GL_TEXTURE_1D, GL_TEXTURE_2D}) {
+    for (const GLenum target : std::initializer_list<GLenum>{GL_TEXTURE_1D, GL_TEXTURE_2D}) {
       glBindTexture(target, (target == GL_TEXTURE_1D ? 10u : 20u) + pick(1u, 2u));
       glTexParameteri(target, GL_TEXTURE_MIN_FILTER, pick(GL_NEAREST, GL_LINEAR));
       glTexParameteri(target, GL_TEXTURE_MAG_FILTER, pick(GL_NEAREST, GL_LINEAR));
@@ -157,7 +158,7 @@ class Setter {
     }
     glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, pick(GL_DECAL, GL_BLEND));
     glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, unit(2).data());
-    for (const GLenum coord : {GL_S, GL_T, GL_R, GL_Q}) {
+    for (const GLenum coord : std::initializer_list<GLenum>{GL_S, GL_T, GL_R, GL_Q}) {
       const int n = static_cast<int>(coord - GL_S);
       glTexGeni(coord, GL_TEXTURE_GEN_MODE, pick(GL_OBJECT_LINEAR, GL_EYE_LINEAR));
       glTexGenfv(coord, GL_OBJECT_PLANE, unit(3 + n).data());
@@ -192,8 +193,9 @@ class Setter {
     glPixelTransferi(GL_MAP_STENCIL, pick(1, 0));
     glPixelTransferi(GL_INDEX_SHIFT, pick(1, 2));
     glPixelTransferi(GL_INDEX_OFFSET, pick(3, 4));
-    for (const GLenum name : {GL_RED_SCALE, GL_RED_BIAS, GL_GREEN_SCALE, GL_GREEN_BIAS, GL_BLUE_SCALE,
-                              GL_BLUE_BIAS, GL_ALPHA_SCALE, GL_ALPHA_BIAS, GL_DEPTH_SCALE, GL_DEPTH_BIAS})
+    for (const GLenum name : std::initializer_list<GLenum>{
+             GL_RED_SCALE, GL_RED_BIAS, GL_GREEN_SCALE, GL_GREEN_BIAS, GL_BLUE_SCALE, GL_BLUE_BIAS,
+             GL_ALPHA_SCALE, GL_ALPHA_BIAS, GL_DEPTH_SCALE, GL_DEPTH_BIAS})
       glPixelTransferf(name, pick(2.0f, 3.0f));
     for (GLenum map = GL_PIXEL_MAP_I_TO_I; map <= GL_PIXEL_MAP_A_TO_A; ++map)
       glPixelMapfv(map, pick(2, 4), unit(3).data());
@@ -210,8 +212,9 @@ class Setter {
   }
 
   void set_client_state() const {
-    for (const GLenum array : {GL_VERTEX_ARRAY, GL_NORMAL_ARRAY, GL_COLOR_ARRAY, GL_INDEX_ARRAY,
-                               GL_TEXTURE_COORD_ARRAY, GL_EDGE_FLAG_ARRAY})
+    for (const GLenum array :
+         std::initializer_list<GLenum>{GL_VERTEX_ARRAY, GL_NORMAL_ARRAY, GL_COLOR_ARRAY, GL_INDEX_ARRAY,
+                                       GL_TEXTURE_COORD_ARRAY, GL_EDGE_FLAG_ARRAY})
       (second_ ? glDisableClientState : glEnableClientState)(array);
     static const GLubyte kElements[2] = {};
     const GLubyte* pointer = kElements + pick(0, 1);
@@ -221,18 +224,19 @@ class Setter {
     glIndexPointer(pick_enum(GL_SHORT, GL_INT), pick(4, 8), pointer);
     glTexCoordPointer(pick(2, 3), pick_enum(GL_SHORT, GL_INT), pick(4, 8), pointer);
     glEdgeFlagPointer(pick(4, 8), pointer);
-    for (const GLenum name :
-         {GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST, GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST})
+    for (const GLenum name : std::initializer_list<GLenum>{GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST,
+                                                           GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST})
       glPixelStorei(name, pick(1, 0));
-    for (const GLenum name : {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS,
-                              GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS})
+    for (const GLenum name :
+         std::initializer_list<GLenum>{GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS,
+                                       GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS})
       glPixelStorei(name, pick(2, 3));
     glPixelStorei(GL_PACK_ALIGNMENT, pick(1, 8));
     glPixelStorei(GL_UNPACK_ALIGNMENT, pick(2, 1));
   }
 
   void set_matrices() const {
-    for (const GLenum mode : {GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE}) {
+    for (const GLenum mode : std::initializer_list<GLenum>{GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE}) {
       glMatrixMode(mode);
       glTranslated(pick(1.0, 2.0), 3, 4);
     }

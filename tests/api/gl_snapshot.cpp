@@ -3,6 +3,7 @@
 #include <GL/glext.h>
 
 #include <cstdint>
+#include <initializer_list>
 #include <sstream>
 
 namespace halfspace::test {
@@ -113,7 +114,7 @@ class Taker {
                      [&](GLfloat* v) { glGetLightfv(GL_LIGHT0 + i, query.name, v); });
       }
     }
-    for (const GLenum face : {GL_FRONT, GL_BACK}) {
+    for (const GLenum face : std::initializer_list<GLenum>{GL_FRONT, GL_BACK}) {
       for (const Query& query : kMaterialQueries) {
         const char* side = face == GL_FRONT ? "front " : "back ";
         add<GLfloat>(std::string(side) + query.text, kLighting, query.values,
@@ -123,7 +124,7 @@ class Taker {
   }
 
   void take_textures() {
-    for (const GLenum target : {GL_TEXTURE_1D, GL_TEXTURE_2D}) {
+    for (const GLenum target : std::initializer_list<GLenum>{GL_TEXTURE_1D, GL_TEXTURE_2D}) {
       const std::string side = target == GL_TEXTURE_1D ? "1D " : "2D ";
       for (const Query& query : kTexParameterQueries) {
         add<GLfloat>(side + query.text, kTexture, query.values,
@@ -138,7 +139,7 @@ class Taker {
       add<GLfloat>(query.text, kTexture, query.values,
                    [&](GLfloat* v) { glGetTexEnvfv(GL_TEXTURE_ENV, query.name, v); });
     }
-    for (const GLenum coord : {GL_S, GL_T, GL_R, GL_Q}) {
+    for (const GLenum coord : std::initializer_list<GLenum>{GL_S, GL_T, GL_R, GL_Q}) {
       for (const Query& query : kTexGenQueries) {
         add("texgen " + std::to_string(coord - GL_S) + " " + query.text, kTexture, query.values,
             [&](GLdouble* v) { glGetTexGendv(coord, query.name, v); });

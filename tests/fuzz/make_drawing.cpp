@@ -51,7 +51,7 @@ Plane random_plane(Maker& m) {
 
 void paint_at_random(Maker& m, Vertex& vertex) {
   const std::vector<float> color = m.color();
-  for (size_t i = 0; i < 4; ++i) vertex.color[i] = color[i];
+  for (size_t i = 0; i < 4; ++i) vertex.color[i] = double(color[i]);
   for (double& n : vertex.normal) n = m.random.real(-1, 1);
 }
 
@@ -161,7 +161,7 @@ void draw_arrays(Maker& m, const Shape& shape) {
   }
   // The current colour is undefined after an array of colours was drawn.
   const std::vector<float> color = m.color();
-  m.call(Command::glColor4f, {color[0], color[1], color[2], color[3]});
+  m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
   m.call(Command::glTexCoord2f, {0, 0});
   m.call(Command::glNormal3f, {0, 0, 1});
 }
@@ -193,7 +193,7 @@ void add_edge_flags(Maker& m) {
 
 void add_rect(Maker& m) {
   const std::vector<float> color = m.color();
-  m.call(Command::glColor4f, {color[0], color[1], color[2], color[3]});
+  m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
   // Two in one plane would fight for depth.
   m.call(Command::glTranslatef, {0, 0, m.random.real(-0.125, 0.125)});
   m.call(Command::glRectf,

@@ -26,7 +26,8 @@ void add_depth(Maker& m) {
 // Between two levels, so that no rounding decides.
 void add_alpha(Maker& m) {
   m.set_enabled(GL_ALPHA_TEST, m.random.chance(80));
-  m.call(Command::glAlphaFunc, {compare_function(m), static_cast<float>((m.random.below(255) + 0.5) / 255)});
+  m.call(Command::glAlphaFunc,
+         {compare_function(m), double(static_cast<float>((m.random.below(255) + 0.5) / 255))});
 }
 
 void add_stencil(Maker& m) {
@@ -72,7 +73,7 @@ void add_fog(Maker& m) {
 
 void add_clear(Maker& m) {
   const std::vector<float> color = m.color();
-  m.call(Command::glClearColor, {color[0], color[1], color[2], color[3]});
+  m.call(Command::glClearColor, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
   m.call(Command::glClearDepth, {m.random.real(0, 1)});
   m.call(Command::glClearStencil, {double(m.random.below(256))});
   const double mask = m.random.pick({GL_COLOR_BUFFER_BIT, GL_DEPTH_BUFFER_BIT, GL_STENCIL_BUFFER_BIT,
@@ -86,7 +87,8 @@ void add_accumulation(Maker& m) {
   switch (m.random.below(6)) {
     case 0: {
       const std::vector<float> color = m.color();
-      m.call(Command::glClearAccum, {color[0] / 2, color[1] / 2, color[2] / 2, color[3] / 2});
+      m.call(Command::glClearAccum,
+             {double(color[0]) / 2, double(color[1]) / 2, double(color[2]) / 2, double(color[3]) / 2});
       m.call(Command::glClear, {GL_ACCUM_BUFFER_BIT});
       break;
     }

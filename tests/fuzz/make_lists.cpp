@@ -53,7 +53,7 @@ std::vector<float> patch(Maker& m, int u_order, int v_order, int size, bool posi
 // With Mesa, current values are what was evaluated last.
 void restore_current(Maker& m) {
   const std::vector<float> color = m.color();
-  m.call(Command::glColor4f, {color[0], color[1], color[2], color[3]});
+  m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
   m.call(Command::glNormal3f, {0, 0, 1});
 }
 

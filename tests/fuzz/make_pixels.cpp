@@ -6,7 +6,7 @@ namespace {
 
 void set_raster_position(Maker& m) {
   const std::vector<float> color = m.color();
-  m.call(Command::glColor4f, {color[0], color[1], color[2], color[3]});
+  m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
   m.set_enabled(GL_LIGHTING, false);
   m.call(Command::glRasterPos3f,
          {m.random.real(-0.9, 0.7), m.random.real(-0.9, 0.7), m.random.real(-0.5, 0.5)});

@@ -42,7 +42,7 @@ void set_up_view(Maker& maker) {
   if (random.chance(60))
     maker.call(Command::glRotatef, {random.real(-60, 60), random.real(-1, 1), random.real(-1, 1), 1});
   const std::vector<float> color = maker.color();
-  maker.call(Command::glClearColor, {color[0], color[1], color[2], color[3]});
+  maker.call(Command::glClearColor, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
   maker.call(Command::glClear, {GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT});
 }
 

@@ -26,10 +26,10 @@ class Random {
   bool chance(int percent) { return below(100) < percent; }
   // A float, in steps that print short.
   double real(double low, double high) {
-    return static_cast<float>(low + (high - low) * below(1025) / 1024.0);
+    return double(static_cast<float>(low + (high - low) * below(1025) / 1024.0));
   }
   // In 1/255: what 8 bits hold exactly.
-  double level() { return static_cast<float>(below(256) / 255.0); }
+  double level() { return double(static_cast<float>(below(256) / 255.0)); }
   template <typename Item>
   Item pick(std::initializer_list<Item> items) {
     return items.begin()[below(static_cast<int>(items.size()))];

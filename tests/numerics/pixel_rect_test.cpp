@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "tests/support/canvas.h"
@@ -219,7 +220,17 @@ TEST(PixelRect, WildZooms) {
   auto state = state_of();
   Canvas canvas(64, 64);
   canvas.clear();
-  const double wild[] = {0, -0.0, 1e-30, 1e-14, 1e30, -1e30, 1e300, INFINITY, -INFINITY, NAN, 5e-324};
+  const double wild[] = {0,
+                         -0.0,
+                         1e-30,
+                         1e-14,
+                         1e30,
+                         -1e30,
+                         1e300,
+                         std::numeric_limits<double>::infinity(),
+                         -std::numeric_limits<double>::infinity(),
+                         std::numeric_limits<double>::quiet_NaN(),
+                         5e-324};
   for (double x : wild) {
     for (double y : wild) {
       for (double at : {0.0, 31.5, -1e9, 1e18}) {

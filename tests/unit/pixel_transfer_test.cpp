@@ -1,6 +1,7 @@
 // Pixel transfer, pixel maps, and images taken out of client memory (spec 3.6.3 to 3.6.5).
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <random>
 #include <vector>
@@ -47,7 +48,9 @@ TEST_F(PixelTransferTest, EveryParameterIsItsOwn) {
     op::pixel_transfer(gl(), name, double(value));
     value += 0.25f;
   }
-  for (GLenum name : {GL_MAP_COLOR, GL_MAP_STENCIL, GL_INDEX_SHIFT, GL_INDEX_OFFSET}) EXPECT_EQ(get(name), 0);
+  for (GLenum name :
+       std::initializer_list<GLenum>{GL_MAP_COLOR, GL_MAP_STENCIL, GL_INDEX_SHIFT, GL_INDEX_OFFSET})
+    EXPECT_EQ(get(name), 0);
   op::pixel_transfer(gl(), GL_MAP_COLOR, 0.25);
   op::pixel_transfer(gl(), GL_INDEX_SHIFT, -3.4);
   op::pixel_transfer(gl(), GL_INDEX_OFFSET, 2147483647.0);

@@ -1,5 +1,6 @@
 // Making contexts current, which buffers are drawn to, and what a flush tells the drawable.
 #include <cstdlib>
+#include <initializer_list>
 #include <thread>
 
 #include "recording_device.h"
@@ -29,8 +30,12 @@ constexpr int kBack = raster::kBackPlane, kFront = raster::kFrontPlane;
 TEST_F(DoubleBufferedTest, DrawBufferChoosesTheTargets) {
   // GL_NONE too is drawn: depth and stencil go on.
   const std::pair<GLenum, int> cases[] = {
-      {GL_NONE, 0},     {GL_FRONT_LEFT, kFront}, {GL_BACK_LEFT, kBack},
-      {GL_FRONT, kFront}, {GL_BACK, kBack},      {GL_LEFT, kFront | kBack},
+      {GL_NONE, 0},
+      {GL_FRONT_LEFT, kFront},
+      {GL_BACK_LEFT, kBack},
+      {GL_FRONT, kFront},
+      {GL_BACK, kBack},
+      {GL_LEFT, kFront | kBack},
       {GL_FRONT_AND_BACK, kFront | kBack},
   };
   EXPECT_EQ(targets_of_a_rectangle(), kBack);
@@ -69,7 +74,7 @@ TEST(Planes, ADrawableOfOnePlaneServesEitherName) {
   MemoryDrawable drawable({}, 10, 20);
   Context context(double_buffered(), nullptr);
   make_current(&context, &drawable);
-  for (const GLenum mode : {GL_FRONT, GL_BACK, GL_FRONT_AND_BACK}) {
+  for (const GLenum mode : std::initializer_list<GLenum>{GL_FRONT, GL_BACK, GL_FRONT_AND_BACK}) {
     op::draw_buffer(context, mode);
     EXPECT_EQ(draw_planes(context), kBack) << std::hex << mode;
   }

@@ -1,6 +1,7 @@
 // Commands, queries and errors of points, lines, polygons and clip planes.
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include "state_fixture.h"
 
@@ -33,8 +34,9 @@ TEST_F(ShapeTest, WhatIsSetIsReadBackAndDerived) {
   op::line_stipple(*context, 300, 0xa5c3);
   op::polygon_offset(*context, -1.5f, 2.5f);
   op::polygon_mode(*context, GL_BACK, GL_POINT);
-  for (GLenum cap : {GL_POINT_SMOOTH, GL_LINE_SMOOTH, GL_LINE_STIPPLE, GL_POLYGON_SMOOTH, GL_POLYGON_STIPPLE,
-                     GL_POLYGON_OFFSET_LINE, GL_CLIP_PLANE1, GL_CLIP_PLANE5})
+  for (GLenum cap : std::initializer_list<GLenum>{GL_POINT_SMOOTH, GL_LINE_SMOOTH, GL_LINE_STIPPLE,
+                                                  GL_POLYGON_SMOOTH, GL_POLYGON_STIPPLE,
+                                                  GL_POLYGON_OFFSET_LINE, GL_CLIP_PLANE1, GL_CLIP_PLANE5})
     op::enable(*context, cap);
   EXPECT_EQ(get<1>(GL_POINT_SIZE)[0], 3.25);
   EXPECT_EQ(get<1>(GL_LINE_WIDTH)[0], 1000);
@@ -42,8 +44,8 @@ TEST_F(ShapeTest, WhatIsSetIsReadBackAndDerived) {
   EXPECT_EQ(get<1>(GL_LINE_STIPPLE_REPEAT)[0], 256);
   EXPECT_EQ(get<1>(GL_POLYGON_OFFSET_FACTOR)[0], -1.5);
   EXPECT_EQ(get<1>(GL_POLYGON_OFFSET_UNITS)[0], 2.5);
-  EXPECT_EQ(get<2>(GL_POINT_SIZE_RANGE), (std::array<double, 2>{1, raster::kMaxPointSize}));
-  EXPECT_EQ(get<2>(GL_LINE_WIDTH_RANGE), (std::array<double, 2>{1, raster::kMaxLineWidth}));
+  EXPECT_EQ(get<2>(GL_POINT_SIZE_RANGE), (std::array<double, 2>{1, double(raster::kMaxPointSize)}));
+  EXPECT_EQ(get<2>(GL_LINE_WIDTH_RANGE), (std::array<double, 2>{1, double(raster::kMaxLineWidth)}));
   EXPECT_GT(get<1>(GL_LINE_WIDTH_GRANULARITY)[0], 0);
   const raster::DrawState& state = *derive(*context);
   EXPECT_EQ(state.point, (raster::PointState{3.25f, true}));
@@ -63,7 +65,8 @@ TEST_F(ShapeTest, Errors) {
     expect_refused(GL_INVALID_VALUE, [&] { op::line_width(*context, bad); });
   }
   double plane[4] = {1, 2, 3, 4};
-  for (GLenum bad : {GLenum(GL_CLIP_PLANE0 - 1), GLenum(GL_CLIP_PLANE5 + 1), GLenum(0)}) {
+  for (GLenum bad :
+       std::initializer_list<GLenum>{GLenum(GL_CLIP_PLANE0 - 1), GLenum(GL_CLIP_PLANE5 + 1), GLenum(0)}) {
     expect_refused(GL_INVALID_ENUM, [&] { op::clip_plane(*context, bad, plane); });
     expect_refused(GL_INVALID_ENUM, [&] { op::get_clip_plane(*context, bad, plane); });
   }
@@ -126,10 +129,14 @@ TEST_F(ShapeTest, PolygonStippleIsUnpackedAndPacked) {
   }
   // The same bits as a part of a larger bitmap: rows of 51 elements, lowest bit first, 2 rows and 11 elements
   // left out.
-  for (GLenum name : {GL_PACK_ROW_LENGTH, GL_UNPACK_ROW_LENGTH}) op::pixel_storei(*context, name, 51);
-  for (GLenum name : {GL_PACK_SKIP_ROWS, GL_UNPACK_SKIP_ROWS}) op::pixel_storei(*context, name, 2);
-  for (GLenum name : {GL_PACK_SKIP_PIXELS, GL_UNPACK_SKIP_PIXELS}) op::pixel_storei(*context, name, 11);
-  for (GLenum name : {GL_PACK_LSB_FIRST, GL_UNPACK_LSB_FIRST}) op::pixel_storei(*context, name, 1);
+  for (GLenum name : std::initializer_list<GLenum>{GL_PACK_ROW_LENGTH, GL_UNPACK_ROW_LENGTH})
+    op::pixel_storei(*context, name, 51);
+  for (GLenum name : std::initializer_list<GLenum>{GL_PACK_SKIP_ROWS, GL_UNPACK_SKIP_ROWS})
+    op::pixel_storei(*context, name, 2);
+  for (GLenum name : std::initializer_list<GLenum>{GL_PACK_SKIP_PIXELS, GL_UNPACK_SKIP_PIXELS})
+    op::pixel_storei(*context, name, 11);
+  for (GLenum name : std::initializer_list<GLenum>{GL_PACK_LSB_FIRST, GL_UNPACK_LSB_FIRST})
+    op::pixel_storei(*context, name, 1);
   const auto pattern = context->polygon_stipple.pattern;
   std::array<GLubyte, 8 * 40> large;
   large.fill(0xff);
