@@ -44,6 +44,19 @@ REPLACEMENT void* operator new(std::size_t size, std::align_val_t a) {
 REPLACEMENT void* operator new[](std::size_t size, std::align_val_t a) {
   return allocate(size, std::size_t(a));
 }
+// The standard's own are not sure to end in those above: a sanitizer brings some of its own.
+REPLACEMENT void* operator new(std::size_t size, const std::nothrow_t&) noexcept try {
+  return allocate(size, alignof(std::max_align_t));
+} catch (const std::bad_alloc&) {
+  return nullptr;
+}
+REPLACEMENT void* operator new[](std::size_t size, const std::nothrow_t&) noexcept try {
+  return allocate(size, alignof(std::max_align_t));
+} catch (const std::bad_alloc&) {
+  return nullptr;
+}
+REPLACEMENT void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
+REPLACEMENT void operator delete[](void* p, const std::nothrow_t&) noexcept { std::free(p); }
 REPLACEMENT void operator delete(void* p) noexcept { std::free(p); }
 REPLACEMENT void operator delete[](void* p) noexcept { std::free(p); }
 REPLACEMENT void operator delete(void* p, std::size_t) noexcept { std::free(p); }
