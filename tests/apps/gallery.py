@@ -91,7 +91,7 @@ class Gallery:
         slug = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
         trace = self.scratch / f"{slug}.trace"
         row = {"name": name, "package": program["package"], "command": program["command"], "slug": slug,
-               "shows": program["shows"]}
+               "shows": program["shows"], "why": program.get("why")}
         row["messages"] = self.record(program, trace)
         if not trace.exists():
             return row | {"failed": "it did not start"}
@@ -146,6 +146,8 @@ def page(rows):
         lines += ["", f"<a id=\"{row['slug']}\"></a>", "", f"![{row['name']}](programs/{row['slug']}.png)", "",
                   f"**{row['name']}**: {row['shows']}. Package {row['package']}, `{row['command']}`, {row['functions']} "
                   "different functions called."]
+        if row["why"]:
+            lines.append(row["why"] + ".")
         if row["messages"]:
             lines.append("It said: `" + row["messages"].replace("\n", "`, `") + "`.")
     return "\n".join(lines) + "\n"
