@@ -1,6 +1,7 @@
 #include "raster/api/device.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/window_box.h"
 #include "raster/surface/accumulate.h"
+#include "raster/statistics.h"
 #include "raster/surface/clear.h"
 #include "raster/surface/resolve.h"
 #include "raster/thread_pool.h"
@@ -50,6 +52,11 @@ bool fuses(const DeviceOptions& options) {
   return options.fuse && (wish == nullptr || std::strcmp(wish, "0") != 0);
 }
 
+bool wants_statistics() {
+  const char* wish = std::getenv("HALFSPACE_STATS");
+  return wish != nullptr && *wish != '\0' && std::strcmp(wish, "0") != 0;
+}
+
 bool same_layout(const VertexLayout& a, const VertexLayout& b) {
   return a.attribute_count == b.attribute_count && a.color == b.color && a.tex_coord == b.tex_coord &&
          a.projective == b.projective && a.fog == b.fog && a.back_color == b.back_color && a.coverage == b.coverage &&
@@ -80,10 +87,18 @@ Rect draw_bounds(const DrawState& state, const Framebuffer::Impl& fb) {
 }  // namespace
 
 struct Device::Impl {
-  explicit Impl(const DeviceOptions& options) : pool(thread_count(options)), fuse(fuses(options)) {}
+  using Clock = std::chrono::steady_clock;
+  explicit Impl(const DeviceOptions& options)
+      : pool(thread_count(options)),
+        prints(wants_statistics()),
+        meters(options.meter || prints),
+        fuse(fuses(options) && !meters) {}
 
   ThreadPool pool;
+  const bool prints, meters;  // statistics of stages
   const bool fuse;
+  StageMeter meter;             // since creation
+  DeviceStatistics statistics_at_picture;  // what had been counted when the last picture was shown
   Framebuffer::Impl* target = nullptr;
   DeviceStatistics statistics;
 
@@ -114,6 +129,8 @@ struct Device::Impl {
   const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout);
   void note_texture(const TextureView& view);
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
+  void count_vertices(const DrawState& state, uint32_t count, Clock::duration time);
+  void report_stages(const LinearImage* image);
   void find_clip_distances(const VertexBatch& batch, DrawRecord& record);
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void need_planes(const DrawState& state, const PipelineProgram& program);
@@ -173,11 +190,31 @@ void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
     vertices.clip.resize(batch.count);
   }
   const uint32_t tasks = (batch.count + kVerticesPerTask - 1) / kVerticesPerTask;
+  const auto start = meters ? Clock::now() : Clock::time_point();
   pool.run(tasks, [&](uint32_t task, int) {
     const uint32_t first = task * kVerticesPerTask;
     shade_vertices(*packet.state, batch, packet.materials, first, std::min(kVerticesPerTask, batch.count - first),
                    vertices);
   });
+  if (meters) count_vertices(*packet.state, batch.count, Clock::now() - start);
+}
+
+void Device::Impl::count_vertices(const DrawState& state, uint32_t count, Clock::duration time) {
+  statistics.vertex_nanoseconds += static_cast<uint64_t>(time / std::chrono::nanoseconds(1));
+  if (state.lighting.enabled) statistics.lit_vertices += count;
+  if (state.tex_gen.any()) statistics.generated_vertices += count;
+}
+
+// Brings statistics.stages up to date and, where that was asked for, prints what a shown picture took.
+void Device::Impl::report_stages(const LinearImage* image) {
+  statistics.stages.clear();
+  for (int id = 0; !stage_name(id).empty(); ++id) {
+    const auto at = static_cast<size_t>(id);
+    if (meter.fragments[at] != 0) statistics.stages.push_back({stage_name(id), meter.fragments[at], meter.nanoseconds[at]});
+  }
+  if (!prints || image == nullptr || statistics.draws == statistics_at_picture.draws) return;
+  print_statistics(statistics_at_picture, statistics);
+  statistics_at_picture = statistics;
 }
 
 void Device::Impl::find_clip_distances(const VertexBatch& batch, DrawRecord& record) {
@@ -366,8 +403,10 @@ void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
   }
   if (!pending.empty()) ++statistics.passes;
   std::vector<TileStatistics> counts(static_cast<size_t>(pool.size()));
+  std::vector<StageMeter> worker_meters(meters ? counts.size() : 0);
   pool.run(static_cast<uint32_t>(tiles.size()), [&](uint32_t i, int worker) {
     TileStatistics local;
+    if (meters) local.meter = &worker_meters[static_cast<size_t>(worker)];
     if (!pending.empty()) run_tile(pending, *target, tiles[i], local);
     if (image != nullptr) resolve_tile(*target, tiles[i], plane_index(plane), *image);
     counts[static_cast<size_t>(worker)].fragments += local.fragments;
@@ -377,7 +416,9 @@ void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
     statistics.fragments += count.fragments;
     statistics.double_fragments += count.double_fragments;
   }
+  for (const StageMeter& counted : worker_meters) meter.add(counted);
   discard();
+  if (meters) report_stages(image);
 }
 
 Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {}

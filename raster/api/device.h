@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "raster/api/draw_packet.h"
 #include "raster/api/feedback.h"
@@ -46,15 +47,29 @@ struct ShadedPoint {
   double tex_coord[4] = {0, 0, 0, 1};  // s t r q, generated and through the texture matrix
 };
 
+// What a stage of the fragment programs did: raster/fragment/stages.def has the names.
+struct StageCount {
+  std::string_view name;
+  uint64_t fragments = 0;    // that were alive when it began
+  uint64_t nanoseconds = 0;  // over all threads
+};
+
 // Counters since creation.
 struct DeviceStatistics {
   uint64_t draws = 0, vertices = 0, triangles = 0, culled = 0, clipped = 0, passes = 0;
   uint64_t fragments = 0;         // lanes that reached a fragment program
   uint64_t double_fragments = 0;  // of these, interpolated in double
+  // Only where stages are metered: what ran, in the order of stages.def, and the time of the vertex stage.
+  std::vector<StageCount> stages;
+  uint64_t vertex_nanoseconds = 0;
+  uint64_t lit_vertices = 0, generated_vertices = 0;  // of `vertices`: with lighting, with texture coordinate generation
 };
 
 struct DeviceOptions {
   int threads = 0;   // 0: HALFSPACE_THREADS, or else all cores
+  // Counts what each stage does, with every stage alone; or HALFSPACE_STATS=1, which also prints the counts of each
+  // picture that is shown, on stderr.
+  bool meter = false;
   bool fuse = true;  // false, or HALFSPACE_FUSE=0: every stage runs alone. The same bytes, slower
 };
 

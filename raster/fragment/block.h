@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "raster/api/draw_state.h"
+#include "raster/fragment/stage_meter.h"
 #include "raster/surface/framebuffer.h"
 #include "raster/tile/setup_batch.h"
 
@@ -75,6 +76,7 @@ struct alignas(64) BlockContext {
   float* color_planes;    // rgba32f
   const float* coverage;  // of the block's pixels, in [0, 1]; where the program asks for it
   const PixelQueue* queue;  // packed fragments instead of the block's, or unused
+  StageMeter* meter = nullptr;  // null: nothing is counted
 };
 
 using BlockFunction = void (*)(BlockContext&);

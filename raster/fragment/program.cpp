@@ -1,6 +1,7 @@
 #include "raster/fragment/program.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "raster/texture/level.h"
@@ -210,6 +211,7 @@ bool cover(const StageList& list, int first, int last, bool fuse, BlockFunction 
       if (kernel != nullptr) break;
     }
     if (kernel == nullptr) return false;
+    program.stages[static_cast<size_t>(program.count)] = list.ids[static_cast<size_t>(at)];
     program.kernels[static_cast<size_t>(program.count++)] = kernel;
     at += length;
   }
@@ -299,6 +301,28 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
   const bool reaches_memory = program.writes_color || program.writes_depth;
   program.draws_nothing = !writes_stencil(state.stencil) && ((depth && func == CompareFunc::never) || !reaches_memory);
   return program;
+}
+
+static_assert(static_cast<int>(StageId::count) <= kMaxStageIds);
+
+std::string_view stage_name(int id) {
+  static constexpr std::string_view kNames[] = {
+#define STAGE(id, body, reads, writes) #id,
+#include "raster/fragment/stages.def"
+#undef STAGE
+  };
+  return id >= 0 && id < static_cast<int>(StageId::count) ? kNames[id] : std::string_view();
+}
+
+void BlockProgram::run_metered(BlockContext& block, int first, int last) const {
+  using Clock = std::chrono::steady_clock;
+  for (int i = first; i < last && block.live != 0; ++i) {
+    const auto id = static_cast<size_t>(stages[static_cast<size_t>(i)]);
+    block.meter->fragments[id] += static_cast<uint64_t>(__builtin_popcountll(block.live));
+    const Clock::time_point start = Clock::now();
+    kernels[static_cast<size_t>(i)](block);
+    block.meter->nanoseconds[id] += static_cast<uint64_t>((Clock::now() - start) / std::chrono::nanoseconds(1));
+  }
 }
 
 }  // namespace halfspace::raster

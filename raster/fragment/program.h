@@ -30,6 +30,7 @@ struct StageList {
 // A stage list as kernels to call one after another; each does one or several stages.
 struct BlockProgram {
   std::array<BlockFunction, kMaxStages> kernels{};
+  std::array<StageId, kMaxStages> stages{};  // the first, or only, stage of each kernel
   int count = 0;
   int head = 0;  // kernels before the first that touches colour memory, where there are two planes to do that to
   void run(BlockContext& block) const { run(block, 0, count); }
@@ -38,8 +39,10 @@ struct BlockProgram {
 
  private:
   void run(BlockContext& block, int first, int last) const {
+    if (block.meter != nullptr) return run_metered(block, first, last);
     for (int i = first; i < last && block.live != 0; ++i) kernels[static_cast<size_t>(i)](block);
   }
+  void run_metered(BlockContext& block, int first, int last) const;
 };
 
 struct PipelineProgram {

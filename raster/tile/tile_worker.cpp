@@ -142,7 +142,7 @@ void FlushPacked(TileContext& t) {
   BlockContext& c = t.block;
   c.queue = &queue;
   c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
-  c.live = ~uint64_t{0};
+  c.live = ~uint64_t{0} >> (kBlockPixels - queue.count);
   t.program->packed[t.packer.variant].run(c);
   queue.count = 0;
   t.packer.blocks = 0;
@@ -181,7 +181,11 @@ void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint32_t*
 // passed the depth test. `blocks`: the blocks these pixels lie in.
 void TestAndPack(TileContext& t, int lane, int x, int y, uint64_t mask, uint64_t blocks) {
   PrepareWindow(t, blocks);
-  t.statistics->fragments += static_cast<uint64_t>(__builtin_popcountll(mask));
+  const auto count = static_cast<uint64_t>(__builtin_popcountll(mask));
+  t.statistics->fragments += count;
+  // The depth test is made on the way in, the first stage of the unpacked list.
+  if (t.block.meter != nullptr && t.program->depth.test)
+    t.block.meter->fragments[static_cast<size_t>(t.program->variants[0].stages[0])] += count;
   PackWindow(t, lane, x, y, mask, t.program->reads_depth ? t.framebuffer->depth_tile(t.tile) : nullptr);
   t.packer.blocks |= blocks;
 }
@@ -290,6 +294,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.x = static_cast<int>(tile % static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
   t.y = static_cast<int>(tile / static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
   t.statistics = &statistics;
+  t.block.meter = statistics.meter;
   t.block.setup = &t.setup;
   t.block.coverage = whole;
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);

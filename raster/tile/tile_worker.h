@@ -11,6 +11,7 @@ namespace halfspace::raster {
 
 struct TileStatistics {
   uint64_t fragments = 0, double_fragments = 0;
+  StageMeter* meter = nullptr;  // where stages are counted, or null
 };
 
 // Draws the bins of `tile` of all segments, in their order, on the framebuffer. Tiles are independent of each other.
