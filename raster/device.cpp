@@ -32,6 +32,8 @@ constexpr size_t kMaxPendingBytes = size_t{1} << 18;  // shaded vertices
 constexpr size_t kMaxPendingPrimitives = size_t{1} << 13;
 constexpr size_t kMaxPendingTextureBytes = size_t{128} << 20;  // of several textures; a single one may be larger
 constexpr uint32_t kPartPrimitives = 4096;   // a larger draw is taken in parts
+// With several threads all of these are larger: every execution is a meeting of all threads.
+constexpr uint32_t kThreadedScale = 8;
 constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
 constexpr uint32_t kVerticesPerTask = 2048;
 
@@ -129,6 +131,7 @@ struct Device::Impl {
   const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout);
   void note_texture(const TextureView& view);
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
+  uint32_t scale() const { return pool.size() > 1 ? kThreadedScale : 1; }
   void count_vertices(const DrawState& state, uint32_t count, Clock::duration time);
   void report_stages(const LinearImage* image);
   void find_clip_distances(const VertexBatch& batch, DrawRecord& record);
@@ -277,7 +280,7 @@ void Device::Impl::draw(const DrawPacket& packet) {
 // Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending stays small.
 void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout) {
   const uint32_t each = vertices_of_each(packet.primitive);
-  const uint32_t step = each * kPartPrimitives;
+  const uint32_t step = each * kPartPrimitives * scale();
   if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, program_for(packet.state, layout));
   for (uint32_t first = 0; first < packet.index_count; first += step) {
     DrawPacket part = packet;
@@ -323,7 +326,7 @@ void Device::Impl::execute_if_full() {
   size_t pending_primitives = 0;
   for (const Segment* segment : pending) pending_primitives += segment->primitives.size();
   const bool many_texels = textures.size() > 1 && texture_bytes > kMaxPendingTextureBytes;
-  if (arena.bytes_in_use() > kMaxPendingBytes || many_texels || pending_primitives > kMaxPendingPrimitives)
+  if (arena.bytes_in_use() > kMaxPendingBytes * scale() || many_texels || pending_primitives > kMaxPendingPrimitives * scale())
     execute(nullptr);
 }
 
