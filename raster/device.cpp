@@ -65,17 +65,6 @@ bool same_layout(const VertexLayout& a, const VertexLayout& b) {
          a.constant_color == b.constant_color && a.given_color == b.given_color && a.given_depth == b.given_depth;
 }
 
-// Vertices a primitive of its own has, or 0 for modes whose primitives share vertices.
-uint32_t vertices_of_each(Primitive mode) {
-  switch (mode) {
-    case Primitive::points: return 1;
-    case Primitive::lines: return 2;
-    case Primitive::triangles: return 3;
-    case Primitive::quads: return 4;
-    default: return 0;
-  }
-}
-
 Rect draw_window(const DrawState& state, const Framebuffer::Impl& fb) {
   const Rect whole{0, 0, fb.width, fb.height};
   return state.raster.scissor_test ? intersect(whole, state.raster.scissor) : whole;
@@ -138,8 +127,8 @@ struct Device::Impl {
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void need_planes(const DrawState& state, const PipelineProgram& program);
   void draw(const DrawPacket& packet);
-  void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout);
-  void draw_part(const DrawPacket& packet, const VertexLayout& layout, const PipelineProgram& program);
+  void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape);
+  void draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape);
   void execute_if_full();
   void draw_pixels(const PixelPacket& packet);
   bool prepare_pixels(const PixelPacket& packet, const PipelineProgram& program);
@@ -274,14 +263,14 @@ void Device::Impl::draw(const DrawPacket& packet) {
   const Rect reach = shape.general ? draw_window(state, *target) : draw_bounds(state, *target);
   if (program.draws_nothing || reach.empty()) return;
   need_planes(state, program);
-  draw_in_parts(packet, layout);
+  draw_in_parts(packet, layout, shape);
 }
 
 // Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending stays small.
-void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout) {
-  const uint32_t each = vertices_of_each(packet.primitive);
+void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape) {
+  const uint32_t each = separate_vertices(packet.primitive);
   const uint32_t step = each * kPartPrimitives * scale();
-  if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, program_for(packet.state, layout));
+  if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape);
   for (uint32_t first = 0; first < packet.index_count; first += step) {
     DrawPacket part = packet;
     part.index_count = std::min(step, packet.index_count - first);
@@ -298,17 +287,17 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
       part.indices = part_indices.data();
     }
     part.batch = part_of(packet.batch, lowest, highest - lowest + 1);
-    draw_part(part, layout, program_for(packet.state, layout));  // executing a full pass drops the program
+    draw_part(part, layout, shape);
   }
 }
 
-void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const PipelineProgram& program) {
+void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape) {
   DrawRecord& record = draws.emplace_back();
   record.state = packet.state;
   record.bounds = draw_bounds(*packet.state, *target);
   record.window = draw_window(*packet.state, *target);
-  record.program = &program;
-  record.shape = plan_shapes(*packet.state, packet.primitive);
+  record.program = &program_for(packet.state, layout);  // executing a full pass drops it
+  record.shape = shape;
   record.edge_flags = packet.batch.edge_flag;
   record.stipple_start = packet.continues ? stipple : 0;
   record.vertices.layout = layout;

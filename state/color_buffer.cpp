@@ -67,11 +67,7 @@ int existing_buffers(const VisualConfig& visual) {
   return visual.double_buffered ? kFrontLeft | kBackLeft : kFrontLeft;
 }
 
-}  // namespace
-
-namespace {
-
-const Drawable* reading_drawable(const Context& context) {
+Drawable* reading_drawable(const Context& context) {
   return context.read_drawable ? context.read_drawable : context.drawable;
 }
 
@@ -101,7 +97,7 @@ raster::Framebuffer* draw_framebuffer(Context& context) {
 
 raster::Framebuffer* read_framebuffer(Context& context) {
   flush_vertices(context);
-  Drawable* drawable = context.read_drawable ? context.read_drawable : context.drawable;
+  Drawable* drawable = reading_drawable(context);
   return drawable ? &drawable->framebuffer(read_plane(context)) : nullptr;
 }
 

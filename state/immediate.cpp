@@ -146,22 +146,6 @@ bool make_room(Context& context) {
   return true;
 }
 
-// Vertices of one primitive, for modes whose primitives stand alone; 0: the others.
-uint32_t separate_vertices(GLenum mode) {
-  switch (mode) {
-    case GL_POINTS:
-      return 1;
-    case GL_LINES:
-      return 2;
-    case GL_TRIANGLES:
-      return 3;
-    case GL_QUADS:
-      return 4;
-    default:
-      return 0;
-  }
-}
-
 void start_batch(Context& context, GLenum mode) {
   ImmediateState& im = context.immediate;
   flush_vertices(context);
@@ -257,7 +241,7 @@ void end(Context& context) {
   im.inside = false;
   im.cursor = im.limit = nullptr;
   set_table(context, kExecuteTable);
-  if (const uint32_t n = separate_vertices(im.mode)) {
+  if (const uint32_t n = raster::separate_vertices(primitive_of(im.mode))) {
     im.waiting = count - count % n;  // an unfinished primitive is dropped (spec 2.6.1)
   } else {
     draw_gathered(context, batch_mode(im), count);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "state/derive/derived.h"
 #include "state/display_list.h"
 
 namespace halfspace::state {
@@ -23,22 +24,6 @@ struct ValuesNode : ListNode {
 
 void play_values_node(Context& context, const ListNode& node) {
   play_values(context, static_cast<const ValuesNode&>(node).values);
-}
-
-// Vertices of one primitive, for modes whose primitives stand alone; 0: the others.
-uint32_t separate_vertices(GLenum mode) {
-  switch (mode) {
-    case GL_POINTS:
-      return 1;
-    case GL_LINES:
-      return 2;
-    case GL_TRIANGLES:
-      return 3;
-    case GL_QUADS:
-      return 4;
-    default:
-      return 0;
-  }
 }
 
 }  // namespace
@@ -134,7 +119,8 @@ void ListCompiler::reset_batch() {
 }
 
 bool ListCompiler::joins(GLenum primitive) const {
-  if (batch_.pairs.empty() || batch_.mode != primitive || !separate_vertices(primitive)) return false;
+  if (batch_.pairs.empty() || batch_.mode != primitive || !raster::separate_vertices(primitive_of(primitive)))
+    return false;
   if (!batch_.materials.empty()) return false;
   for (size_t a = 0; a < kListColumns; ++a) {
     if (values_.knows(a) && batch_.columns[a].data.empty()) return false;
@@ -158,7 +144,8 @@ bool ListCompiler::end() {
   const Phase phase = std::exchange(phase_, Phase::outside);
   if (phase != Phase::gathering) return false;
   // An unfinished primitive is dropped (spec 2.6.1).
-  if (const uint32_t n = separate_vertices(batch_.mode)) batch_.truncate(batch_.count - batch_.count % n);
+  if (const uint32_t n = raster::separate_vertices(primitive_of(batch_.mode)))
+    batch_.truncate(batch_.count - batch_.count % n);
   return true;
 }
 

@@ -8,6 +8,16 @@ namespace halfspace::raster {
 enum class Primitive : uint8_t {
   points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan, quads, quad_strip, polygon,
 };
+// Vertices of one primitive, for modes whose primitives stand alone; 0: the others.
+constexpr uint32_t separate_vertices(Primitive mode) {
+  switch (mode) {
+    case Primitive::points: return 1;
+    case Primitive::lines: return 2;
+    case Primitive::triangles: return 3;
+    case Primitive::quads: return 4;
+    default: return 0;
+  }
+}
 enum class CompareFunc : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class BlendFactor : uint8_t {
   zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color,

@@ -132,10 +132,6 @@ void add_texture_stages(const DrawState& state, const VertexLayout& layout, unsi
   list.add(env);
 }
 
-uint32_t byte_mask(const ColorMask& mask) {
-  return (mask.r ? 0xffu : 0u) | (mask.g ? 0xff00u : 0u) | (mask.b ? 0xff0000u : 0u) | (mask.a ? 0xff000000u : 0u);
-}
-
 void scale_color(const Color& color, bool to_bytes, float* out) {
   out[0] = color_level(color.r, to_bytes);
   out[1] = color_level(color.g, to_bytes);

@@ -53,7 +53,7 @@ class Assembler {
   }
 
   template <class Pattern>
-  void triangles(uint32_t first, uint32_t count) {
+  void faces(uint32_t first, uint32_t count) {
     segment_.triangles_in += count;
     for (uint32_t k = first; k < first + count; ++k) {
       const Corners at = Pattern::at(k);
@@ -221,26 +221,7 @@ void assemble(const DrawRecord& draw, Primitive mode, const uint32_t* indices, u
   if (draw.shape.general) return assemble_shapes(draw, mode, indices, index_count, first, count, segment);
   if (draw.bounds.empty()) return;
   Assembler assembler(draw, indices, index_count, segment);
-  switch (mode) {
-    case Primitive::points:
-      return assembler.points(first, count);
-    case Primitive::lines:
-    case Primitive::line_loop:
-    case Primitive::line_strip:
-      return assembler.lines(mode, first, count);
-    case Primitive::triangles:
-      return assembler.triangles<ListTriangles>(first, count);
-    case Primitive::triangle_strip:
-      return assembler.triangles<StripTriangles>(first, count);
-    case Primitive::triangle_fan:
-      return assembler.triangles<FanTriangles>(first, count);
-    case Primitive::polygon:
-      return assembler.triangles<PolygonTriangles>(first, count);
-    case Primitive::quads:
-      return assembler.triangles<QuadTriangles>(first, count);
-    case Primitive::quad_strip:
-      return assembler.triangles<QuadStripTriangles>(first, count);
-  }
+  assemble_by_mode(assembler, mode, first, count);
 }
 
 }  // namespace halfspace::raster

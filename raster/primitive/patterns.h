@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "raster/api/types.h"
+
 namespace halfspace::raster {
 
 struct Corners {
@@ -62,5 +64,30 @@ struct QuadStripTriangles {
   }
   static uint32_t face(uint32_t k, uint32_t i) { return k / 2 * 2 + (i < 2 ? i : 5 - i); }
 };
+
+// Has `assembler` take primitives [first, first + count) of a draw: points(), lines() or, by their pattern, faces<>().
+template <class Assembler>
+void assemble_by_mode(Assembler& assembler, Primitive mode, uint32_t first, uint32_t count) {
+  switch (mode) {
+    case Primitive::points:
+      return assembler.points(first, count);
+    case Primitive::lines:
+    case Primitive::line_loop:
+    case Primitive::line_strip:
+      return assembler.lines(mode, first, count);
+    case Primitive::triangles:
+      return assembler.template faces<ListTriangles>(first, count);
+    case Primitive::triangle_strip:
+      return assembler.template faces<StripTriangles>(first, count);
+    case Primitive::triangle_fan:
+      return assembler.template faces<FanTriangles>(first, count);
+    case Primitive::polygon:
+      return assembler.template faces<PolygonTriangles>(first, count);
+    case Primitive::quads:
+      return assembler.template faces<QuadTriangles>(first, count);
+    case Primitive::quad_strip:
+      return assembler.template faces<QuadStripTriangles>(first, count);
+  }
+}
 
 }  // namespace halfspace::raster

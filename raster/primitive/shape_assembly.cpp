@@ -37,7 +37,7 @@ class ShapeAssembler {
   ShapeAssembler& operator=(const ShapeAssembler&) = delete;
 
   template <class Pattern>
-  void polygons(uint32_t first, uint32_t count) {
+  void faces(uint32_t first, uint32_t count) {
     segment_.triangles_in += count;
     if (polygon_.front == PolygonMode::fill && polygon_.back == PolygonMode::fill) {
       for (uint32_t k = first; k < first + count; ++k) {
@@ -373,26 +373,7 @@ class ShapeAssembler {
 void assemble_shapes(const DrawRecord& draw, Primitive mode, const uint32_t* indices, uint32_t index_count,
                      uint32_t first, uint32_t count, Segment& segment) {
   ShapeAssembler assembler(draw, indices, index_count, segment);
-  switch (mode) {
-    case Primitive::points:
-      return assembler.points(first, count);
-    case Primitive::lines:
-    case Primitive::line_loop:
-    case Primitive::line_strip:
-      return assembler.lines(mode, first, count);
-    case Primitive::triangles:
-      return assembler.polygons<ListTriangles>(first, count);
-    case Primitive::triangle_strip:
-      return assembler.polygons<StripTriangles>(first, count);
-    case Primitive::triangle_fan:
-      return assembler.polygons<FanTriangles>(first, count);
-    case Primitive::polygon:
-      return assembler.polygons<PolygonTriangles>(first, count);
-    case Primitive::quads:
-      return assembler.polygons<QuadTriangles>(first, count);
-    case Primitive::quad_strip:
-      return assembler.polygons<QuadStripTriangles>(first, count);
-  }
+  assemble_by_mode(assembler, mode, first, count);
 }
 
 void clip_distances(const DrawState& state, const VertexBatch& batch, double* distances, uint8_t* codes) {

@@ -22,10 +22,6 @@ Color clamped(const Color& c) {
   return {one(c.r), one(c.g), one(c.b), one(c.a)};
 }
 
-uint32_t byte_mask(const ColorMask& mask) {
-  return (mask.r ? 0xffu : 0u) | (mask.g ? 0xff00u : 0u) | (mask.b ? 0xff0000u : 0u) | (mask.a ? 0xff000000u : 0u);
-}
-
 // Which pixels of a tile a rectangle takes: whole blocks, and blocks it takes only a part of.
 struct TileCut {
   uint64_t whole = 0, partial = 0;

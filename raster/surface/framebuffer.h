@@ -83,4 +83,9 @@ struct Framebuffer::Impl {
 // Rounds to nearest; `c` is clamped to [0, 1], NaN is 0.
 uint32_t pack_rgba8(const Color& c);
 
+// The bytes of an rgba8 pixel that the mask lets through.
+inline uint32_t byte_mask(const ColorMask& mask) {
+  return (mask.r ? 0xffu : 0u) | (mask.g ? 0xff00u : 0u) | (mask.b ? 0xff0000u : 0u) | (mask.a ? 0xff000000u : 0u);
+}
+
 }  // namespace halfspace::raster
