@@ -10,11 +10,11 @@
 namespace halfspace::raster {
 namespace {
 
-struct Level {
+struct IsaLevel {
   Isa isa;
   std::string_view name;
 };
-constexpr Level kLevels[] = {
+constexpr IsaLevel kLevels[] = {
 #if defined(__aarch64__)
     {Isa::neon, "neon"},
 #else
@@ -50,15 +50,15 @@ bool cpu_has(Isa isa) {
 #endif
 }
 
-const Level* find_level(std::string_view name) {
-  for (const Level& level : kLevels)
+const IsaLevel* find_level(std::string_view name) {
+  for (const IsaLevel& level : kLevels)
     if (level.name == name) return &level;
   return nullptr;
 }
 
 Isa best_up_to(Isa limit) {
   Isa best = kLevels[0].isa;
-  for (const Level& level : kLevels)
+  for (const IsaLevel& level : kLevels)
     if (level.isa <= limit && cpu_has(level.isa)) best = level.isa;
   return best;
 }
@@ -67,7 +67,7 @@ Isa choose() {
   constexpr Isa kHighest = kLevels[std::size(kLevels) - 1].isa;
   const char* wish = std::getenv("HALFSPACE_ISA");
   if (wish == nullptr || *wish == '\0') return best_up_to(kHighest);
-  if (const Level* level = find_level(wish)) return best_up_to(level->isa);
+  if (const IsaLevel* level = find_level(wish)) return best_up_to(level->isa);
   std::fprintf(stderr, "halfspace: HALFSPACE_ISA=%s is not known; this build has: %s\n", wish,
                std::string(isa_available()).c_str());
   return best_up_to(kHighest);
@@ -83,7 +83,7 @@ std::atomic<Isa>& chosen() {
 Isa current_isa() { return chosen().load(std::memory_order_relaxed); }
 
 std::string_view isa_name() {
-  for (const Level& level : kLevels)
+  for (const IsaLevel& level : kLevels)
     if (level.isa == current_isa()) return level.name;
   return "unknown";
 }
@@ -91,7 +91,7 @@ std::string_view isa_name() {
 std::string_view isa_available() {
   static const std::string names = [] {
     std::string all;
-    for (const Level& level : kLevels) {
+    for (const IsaLevel& level : kLevels) {
       if (!cpu_has(level.isa)) continue;
       if (!all.empty()) all += ' ';
       all += level.name;
@@ -102,7 +102,7 @@ std::string_view isa_available() {
 }
 
 bool set_isa(std::string_view name) {
-  const Level* level = find_level(name);
+  const IsaLevel* level = find_level(name);
   if (level == nullptr || !cpu_has(level->isa)) return false;
   chosen().store(level->isa, std::memory_order_relaxed);
   return true;

@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "state/derive/accuracy.h"
 #include "state/operations.gen.h"
 #include "state/out_of_memory.h"
 

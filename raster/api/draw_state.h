@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "raster/api/accuracy.h"
 #include "raster/api/clip_plane.h"
 #include "raster/api/fog.h"
 #include "raster/api/lighting.h"
@@ -92,7 +93,7 @@ struct DrawState {
   ColorMask color_mask;
   uint8_t color_targets = kBackPlane;  // bits of ColorPlane that are drawn to
   TextureUnitState texture;
-  Accuracy accuracy = Accuracy::standard;
+  Accuracy accuracy;
 };
 
 }  // namespace halfspace::raster

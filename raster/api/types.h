@@ -31,8 +31,6 @@ enum class EnvMode : uint8_t { modulate, decal, blend, replace };
 enum class ColorFormat : uint8_t { rgba8, rgba32f };
 // A framebuffer has one colour plane or two; depth, stencil and accumulation serve both.
 enum ColorPlane : uint8_t { kBackPlane = 1, kFrontPlane = 2 };  // a single-buffered one has the first only
-// How exact, against how fast. NUMERICS.md, "What accuracy costs".
-enum class Accuracy : uint8_t { draft, standard, exact };
 
 // Half-open rectangle of pixels in GL window coordinates: x right, y up.
 struct Rect {

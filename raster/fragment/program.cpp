@@ -77,11 +77,11 @@ bool needs_lambda(const TextureView& view) {
          view.sampler.mip == MipMode::nearest;
 }
 
-void add_lookup(const TextureView& view, Accuracy accuracy, StageList& list) {
+void add_lookup(const TextureView& view, const Accuracy& accuracy, StageList& list) {
   using enum StageId;
   if (needs_lambda(view)) return list.add(sample_levels);
   if (view.sampler.mag == Filter::nearest) return list.add(sample_nearest);
-  if (accuracy == Accuracy::draft) return list.add(sample_linear_draft);
+  if (accuracy.filter == Level::draft) return list.add(sample_linear_draft);
   const bool repeat = view.sampler.wrap_s == Wrap::repeat && view.sampler.wrap_t == Wrap::repeat;
   list.add(repeat ? footprint_repeat : footprint);
   list.add(sample_linear);

@@ -1,13 +1,10 @@
 #include "state/derive/derived.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
 #include <new>
 #include <utility>
 
 #include "state/context.h"
-#include "state/report.h"
 
 namespace halfspace::state {
 namespace {
@@ -223,15 +220,6 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   derived.dirty = 0;
   derived.state = std::move(next);
   return derived.state;
-}
-
-raster::Accuracy accuracy_from_environment() {
-  const char* value = std::getenv("HALFSPACE_ACCURACY");
-  if (!value || !*value || std::strcmp(value, "standard") == 0) return raster::Accuracy::standard;
-  if (std::strcmp(value, "draft") == 0) return raster::Accuracy::draft;
-  if (std::strcmp(value, "exact") == 0) return raster::Accuracy::exact;
-  report("HALFSPACE_ACCURACY is '%s'; it can be draft, standard or exact. Taking standard", value);
-  return raster::Accuracy::standard;
 }
 
 void submit(Context& context, raster::DrawPacket& packet) try {

@@ -27,7 +27,7 @@ enum DirtyBits : uint32_t {
 struct DerivedState {
   uint32_t dirty = kDirtyAll;
   uint64_t texture_revision = 0;  // of the texture unit in `state`
-  raster::Accuracy accuracy = raster::Accuracy::standard;
+  raster::Accuracy accuracy;
   std::shared_ptr<const raster::DrawState> state;
 };
 
@@ -42,9 +42,6 @@ struct VertexNeeds {
   bool tex_coord, normal, edge_flag;
 };
 VertexNeeds vertex_needs(const Context& context, GLenum mode);
-
-// HALFSPACE_ACCURACY; standard, with a message, when it says nothing known.
-raster::Accuracy accuracy_from_environment();
 
 // `mode`: GL_POINTS .. GL_POLYGON.
 raster::Primitive primitive_of(GLenum mode);

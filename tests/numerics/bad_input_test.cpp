@@ -66,7 +66,7 @@ DrawState odd_state(Random& random, TestTexture& texture) {
   DrawState state = plain_state(kSize, kSize);
   state.depth.test = random.integer(0, 1) == 1;
   state.raster.flat_shading = random.integer(0, 1) == 1;
-  state.accuracy = Accuracy(random.integer(0, 2));
+  state.accuracy = Accuracy::all(Level(random.integer(0, 2)));
   if (random.integer(0, 1)) {
     const MipMode mip = MipMode(random.integer(0, 2));
     const Wrap wrap = Wrap(random.integer(0, 2));

@@ -20,10 +20,10 @@ Color gray(int byte) {
 
 // As one colour for all vertices, as a colour that happens to be the same at every vertex, on every accuracy.
 TEST(Color, EveryByteComesBack) {
-  for (Accuracy accuracy : {Accuracy::draft, Accuracy::standard, Accuracy::exact}) {
+  for (Level level : {Level::draft, Level::standard, Level::exact}) {
     Canvas canvas(kSize, kSize);
     DrawState state = plain_state(kSize, kSize);
-    state.accuracy = accuracy;
+    state.accuracy = Accuracy::all(level);
     for (int byte = 0; byte < 256; ++byte) {
       const std::vector<Vertex> quad =
           snapped_quad(-900, 33, 80 * 256, 70 * 256 + 1, kSize, 0.3f, gray(byte));
@@ -131,11 +131,11 @@ void expect_gradients(const GradientOptions& options, uint64_t seed) {
   }
 }
 
-TEST(Color, GradientsRoundToNearest) { expect_gradients({Accuracy::standard, false, 0.501}, 1); }
-TEST(Color, PerspectiveGradientsRoundToNearest) { expect_gradients({Accuracy::standard, true, 0.501}, 2); }
+TEST(Color, GradientsRoundToNearest) { expect_gradients({Accuracy::all(Level::standard), false, 0.501}, 1); }
+TEST(Color, PerspectiveGradientsRoundToNearest) { expect_gradients({Accuracy::all(Level::standard), true, 0.501}, 2); }
 TEST(Color, ExactGradientsRoundToNearest) {
   // Interpolated in double; the last steps, in float, may cost a float's spacing at 255.
-  expect_gradients({Accuracy::exact, true, 0.5 + 0x1p-15}, 3);
+  expect_gradients({Accuracy::all(Level::exact), true, 0.5 + 0x1p-15}, 3);
 }
 
 // Spec 2.14.7, table 2.12: which vertex colours the i-th polygon or line of a flat-shaded primitive.

@@ -94,14 +94,14 @@ TEST(Depth, EqualPassesWhateverElseIsSwitchedOn) {
   variants[2].blend = {true, BlendFactor::one, BlendFactor::one};
   variants[3].alpha_test = {true, CompareFunc::greater_equal, 0};
   variants[4].raster.flat_shading = true;
-  variants[5].accuracy = Accuracy::draft;
-  variants[6].accuracy = Accuracy::exact;
+  variants[5].accuracy = Accuracy::all(Level::draft);
+  variants[6].accuracy = Accuracy::all(Level::exact);
   variants[7].raster.scissor_test = true;
   variants[7].raster.scissor = {0, 0, kWidth, kHeight};
   variants[8].color_mask.a = false;
   variants[9].texture.view = variants[1].texture.view;
   variants[9].blend = variants[2].blend;
-  variants[9].accuracy = Accuracy::exact;
+  variants[9].accuracy = Accuracy::all(Level::exact);
   for (bool perspective : {false, true}) {
     const std::vector<Vertex> scene = random_triangles(random, 40, perspective);
     for (size_t first = 0; first < variants.size(); ++first) {

@@ -95,7 +95,7 @@ TEST(Texture1d, LinearIgnoresT) {
       sampler.border_color = {0.2f, 0.4f, 0.8f, 0.6f};
       const oracle::Texture reference = row.reference(sampler);
       for (int round = 0; round < (long_tests() ? 60 : 6); ++round) {
-        const Accuracy accuracy = round % 3 == 2 ? Accuracy::exact : Accuracy::standard;
+        const Accuracy accuracy = round % 3 == 2 ? Accuracy::all(Level::exact) : Accuracy::all(Level::standard);
         const Drawn drawn = draw_triangle(random, row.view(sampler), round % 2 == 1, 3, 40, accuracy);
         for (int y = 0; y < kSize && !testing::Test::HasFatalFailure(); ++y) {
           for (int x = 0; x < kSize; ++x) {
@@ -120,7 +120,7 @@ TEST(Texture1d, TheLevelFollowsSAlone) {
   int compared = 0;
   for (int round = 0; round < (long_tests() ? 60 : 8); ++round) {
     const Drawn drawn =
-        draw_triangle(random, row.view(sampler), round % 2 == 1, 0.5f, 200, Accuracy::standard);
+        draw_triangle(random, row.view(sampler), round % 2 == 1, 0.5f, 200, Accuracy::all(Level::standard));
     for (int y = 0; y < kSize && !testing::Test::HasFatalFailure(); ++y) {
       for (int x = 0; x < kSize; ++x) {
         if (!drawn.triangle.covers(x, y)) continue;

@@ -112,7 +112,7 @@ struct Case {
   Wrap wrap_s, wrap_t;
   int width, height, border;
   bool perspective, projective;
-  Accuracy accuracy = Accuracy::standard;
+  Accuracy accuracy = {};
 };
 
 std::string describe(const Case& c) {
@@ -226,7 +226,7 @@ TEST(TextureLinear, BorderTexels) { expect_textured_for_all(Filter::linear, 1, 3
 
 TEST(TextureLinear, ExactAccuracyRoundsOnce) {
   for (Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::clamp_to_edge}) {
-    expect_textured({Filter::linear, wrap, wrap, 16, 8, 0, true, true, Accuracy::exact}, 400, 0.5 + 1e-4);
+    expect_textured({Filter::linear, wrap, wrap, 16, 8, 0, true, true, Accuracy::all(Level::exact)}, 400, 0.5 + 1e-4);
   }
 }
 

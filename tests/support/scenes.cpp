@@ -265,10 +265,10 @@ void small_mixed_triangles(SceneMaker& m, Scene& scene) {
 }
 
 void accuracies(SceneMaker& m, Scene& scene) {
-  for (Accuracy accuracy : {Accuracy::draft, Accuracy::standard, Accuracy::exact}) {
+  for (Level level : {Level::draft, Level::standard, Level::exact}) {
     for (Filter filter : {Filter::nearest, Filter::linear}) {
       SceneDraw draw{m.state(), Primitive::triangles, m.vertices(9, 1, 30), {}};
-      draw.state.accuracy = accuracy;
+      draw.state.accuracy = Accuracy::all(level);
       draw.state.texture.view =
           m.noise(BaseFormat::rgba, 32, 32, sampler_of(filter, Wrap::repeat, MipMode::linear));
       scene.draws.push_back(draw);

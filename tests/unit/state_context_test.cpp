@@ -1,6 +1,8 @@
 // Making contexts current, which buffers are drawn to, and what a flush tells the drawable.
+#include <algorithm>
 #include <cstdlib>
 #include <initializer_list>
+#include <string>
 #include <thread>
 
 #include "recording_device.h"
@@ -171,16 +173,26 @@ TEST(Derive, ScissorSaturates) {
 }
 
 TEST(Derive, AccuracyComesFromTheEnvironment) {
-  const std::pair<const char*, raster::Accuracy> cases[] = {{"draft", raster::Accuracy::draft},
-                                                            {"exact", raster::Accuracy::exact},
-                                                            {"standard", raster::Accuracy::standard},
-                                                            {"nonsense", raster::Accuracy::standard}};
-  for (const auto& [value, accuracy] : cases) {
+  for (const auto& [value, level] : {std::pair("draft", raster::Level::draft),
+                                     {"exact", raster::Level::exact},
+                                     {"standard", raster::Level::standard},
+                                     {"", raster::Level::standard}}) {
     setenv("HALFSPACE_ACCURACY", value, 1);
     Context context({}, nullptr);
-    EXPECT_EQ(derive(context)->accuracy, accuracy) << value;
+    EXPECT_EQ(derive(context)->accuracy, raster::Accuracy::all(level)) << value;
   }
   unsetenv("HALFSPACE_ACCURACY");
+}
+
+TEST(Derive, NonsenseForAccuracyIsSaidOnceAndLeavesStandard) {
+  setenv("HALFSPACE_ACCURACY", "exact,filter=sharp", 1);
+  testing::internal::CaptureStderr();
+  Context context({}, nullptr);
+  const std::string said = testing::internal::GetCapturedStderr();
+  unsetenv("HALFSPACE_ACCURACY");
+  EXPECT_EQ(derive(context)->accuracy, raster::Accuracy());
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  EXPECT_NE(said.find("HALFSPACE_ACCURACY is 'exact,filter=sharp'"), said.npos) << said;
 }
 
 }  // namespace
