@@ -3,68 +3,14 @@
 // program, so that its operator new is theirs.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <new>
 
 #include "state/context.h"
 #include "tests/api/command_cases.h"
 #include "tests/api/gl_snapshot.h"
+#include "tests/support/failing_new.h"
 #include "tests/unit/state_fixture.h"
-
-namespace {
-
-// How many more allocations of this thread succeed; negative: all.
-thread_local int allocations_left = -1;
-thread_local bool allocation_failed = false;
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  if (allocations_left == 0) {
-    allocation_failed = true;
-    throw std::bad_alloc();
-  }
-  if (allocations_left > 0) --allocations_left;
-  // aligned_alloc wants a multiple of the alignment.
-  const std::size_t whole = (size + alignment - 1) / alignment * alignment + (size == 0 ? alignment : 0);
-  void* p = std::aligned_alloc(alignment, whole);
-  if (p == nullptr) throw std::bad_alloc();
-  return p;
-}
-
-}  // namespace
-
-// Inlined, g++ 12 takes them for a mismatch of new and free.
-#define REPLACEMENT __attribute__((noinline))
-REPLACEMENT void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-REPLACEMENT void* operator new[](std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-REPLACEMENT void* operator new(std::size_t size, std::align_val_t a) {
-  return allocate(size, std::size_t(a));
-}
-REPLACEMENT void* operator new[](std::size_t size, std::align_val_t a) {
-  return allocate(size, std::size_t(a));
-}
-// The standard's own are not sure to end in those above: a sanitizer brings some of its own.
-REPLACEMENT void* operator new(std::size_t size, const std::nothrow_t&) noexcept try {
-  return allocate(size, alignof(std::max_align_t));
-} catch (const std::bad_alloc&) {
-  return nullptr;
-}
-REPLACEMENT void* operator new[](std::size_t size, const std::nothrow_t&) noexcept try {
-  return allocate(size, alignof(std::max_align_t));
-} catch (const std::bad_alloc&) {
-  return nullptr;
-}
-REPLACEMENT void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p, const std::nothrow_t&) noexcept { std::free(p); }
-REPLACEMENT void operator delete(void* p) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p) noexcept { std::free(p); }
-REPLACEMENT void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 namespace halfspace::test {
 namespace {

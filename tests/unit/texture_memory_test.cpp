@@ -1,49 +1,8 @@
 // Out of memory at any allocation of an operation: GL_OUT_OF_MEMORY, and the state is as it was (spec 2.5).
-#include <cstdlib>
-#include <new>
 #include <vector>
 
+#include "tests/support/failing_new.h"
 #include "tests/unit/pixel_fixture.h"
-
-namespace {
-
-// How many more allocations of this thread succeed; negative: all.
-thread_local int allocations_left = -1;
-thread_local bool allocation_failed = false;
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  if (allocations_left == 0) {
-    allocation_failed = true;
-    throw std::bad_alloc();
-  }
-  if (allocations_left > 0) --allocations_left;
-  // aligned_alloc wants a multiple of the alignment.
-  void* p =
-      std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment + (size == 0) * alignment);
-  if (p == nullptr) throw std::bad_alloc();
-  return p;
-}
-
-}  // namespace
-
-// Inlined, g++ 12 takes them for a mismatch of new and free.
-#define REPLACEMENT __attribute__((noinline))
-REPLACEMENT void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-REPLACEMENT void* operator new[](std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-REPLACEMENT void* operator new(std::size_t size, std::align_val_t a) {
-  return allocate(size, std::size_t(a));
-}
-REPLACEMENT void* operator new[](std::size_t size, std::align_val_t a) {
-  return allocate(size, std::size_t(a));
-}
-REPLACEMENT void operator delete(void* p) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p) noexcept { std::free(p); }
-REPLACEMENT void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
-REPLACEMENT void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 namespace halfspace::state {
 namespace {
@@ -65,12 +24,12 @@ class TextureMemoryTest : public PixelTest {
   template <class Call, class Unchanged>
   int fail_everywhere(Call&& call, Unchanged&& unchanged) {
     for (int n = 0; n < 1000; ++n) {
-      allocations_left = n;
-      allocation_failed = false;
+      test::allocations_left = n;
+      test::allocation_failed = false;
       call();
-      allocations_left = -1;
+      test::allocations_left = -1;
       const GLenum code = error();
-      if (!allocation_failed) {
+      if (!test::allocation_failed) {
         EXPECT_EQ(code, GLenum{GL_NO_ERROR});
         return n;
       }
