@@ -47,6 +47,11 @@ bool parse_options(int argc, char** argv, Options& options, int& exit_code) {
                  "Write times, picture names and the renderer's strings to this file");
   app.add_option("--backend", options.backend, "What to draw with")
       ->check(CLI::IsMember({"glx", "osmesa", "raster"}));
+  app.add_option("--paint", options.paint,
+                 "What the pixels show: how the scene looks, which primitive drew them, or where in a "
+                 "texture they looked")
+      ->check(CLI::IsMember({"scene", "owners", "texels"}))
+      ->capture_default_str();
   app.add_option("--assets", options.assets, "Folder with images to take in place of the computed ones");
   app.add_option("--write-assets", options.write_assets,
                  "Write the computed images to this folder, and stop");

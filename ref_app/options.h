@@ -10,6 +10,7 @@ struct Options {
   int width = 1024, height = 1024;
   int frames = 5;  // timed after the first one
   std::string out = "out", format = "bmp", json;
+  std::string paint = "scene";
   std::string backend;  // empty: this program's own
   std::string assets, write_assets, model;
   bool pictures = true;

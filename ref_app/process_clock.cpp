@@ -36,6 +36,8 @@ double milliseconds_since_process_start() {
   return static_cast<double>(read_clock(CLOCK_MONOTONIC) - start_ns) * 1e-6;
 }
 
+double processor_milliseconds() { return static_cast<double>(read_clock(CLOCK_PROCESS_CPUTIME_ID)) * 1e-6; }
+
 std::string process_start_source() { return from_environment ? "environment" : "estimate"; }
 
 long peak_memory_kib() {

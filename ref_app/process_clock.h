@@ -14,6 +14,9 @@ double milliseconds_since_process_start();
 // "environment" or "estimate".
 std::string process_start_source();
 
+// Processor time of this process so far, over all its threads.
+double processor_milliseconds();
+
 // Peak resident set since the program was loaded, in KiB; 0 where there is no /proc.
 long peak_memory_kib();
 

@@ -29,12 +29,18 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+void write_numbers(std::ostream& out, const std::vector<double>& numbers) {
+  for (size_t i = 0; i < numbers.size(); ++i) out << (i ? ", " : "") << numbers[i];
+}
+
 void write_scene(std::ostream& out, const SceneResult& result) {
   out << "    {\"scene\": " << result.scene << ", \"name\": " << quoted(scene_name(result.scene))
       << ", \"triangles\": " << result.triangles << ",\n     \"first_ms\": " << result.first_ms
       << ", \"median_ms\": " << result.median_ms() << ", \"fastest_ms\": " << result.fastest_ms()
       << ", \"frame_ms\": [";
-  for (size_t i = 0; i < result.frame_ms.size(); ++i) out << (i ? ", " : "") << result.frame_ms[i];
+  write_numbers(out, result.frame_ms);
+  out << "],\n     \"frame_cpu_ms\": [";
+  write_numbers(out, result.frame_cpu_ms);
   out << "],\n     \"opaque\": " << (result.opaque ? "true" : "false")
       << ", \"peak_rss_kib\": " << result.peak_kib
       << ", \"picture\": " << (result.picture.empty() ? "null" : quoted(result.picture)) << "}";

@@ -12,6 +12,7 @@ struct SceneResult {
   size_t triangles = 0;
   double first_ms = 0;           // the first frame
   std::vector<double> frame_ms;  // the ones after it: clear, draw, finish
+  std::vector<double> frame_cpu_ms;  // processor time of those, over all threads
   bool opaque = true;            // every pixel read back with alpha 255
   long peak_kib = 0;             // peak memory so far, before any image file was touched
   std::string picture;           // file name, empty when none was saved

@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "ref_app/image_file.h"
 #include "ref_app/input_error.h"
+#include "ref_app/paint.h"
 #include "ref_app/picture_spool.h"
 #include "ref_app/process_clock.h"
 #include "ref_app/report.h"
@@ -27,18 +29,26 @@ Motion motion_at(int frame, bool animate) {
   return motion;
 }
 
-// Clear, draw and finish, in milliseconds.
-double time_frame(Scene& scene, Renderer& renderer, const Motion& motion) {
+struct FrameTime {
+  double ms = 0, cpu_ms = 0;
+};
+
+// Clear, draw and finish.
+FrameTime time_frame(Scene& scene, Renderer& renderer, const Motion& motion) {
   using Clock = std::chrono::steady_clock;
+  const double cpu_begin = processor_milliseconds();
   const Clock::time_point begin = Clock::now();
   scene.draw(renderer, motion);
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  const std::chrono::duration<double, std::milli> wall = Clock::now() - begin;
+  return {wall.count(), processor_milliseconds() - cpu_begin};
 }
 
 class Run {
  public:
   Run(Backend& backend, const Options& options)
       : backend_(backend), options_(options), assets_(options.assets, options.model) {
+    if (const Paint paint = paint_of(options.paint); paint != Paint::scene)
+      painted_.emplace(backend.renderer(), paint);
     report_.backend = backend_name();
     report_.strings = backend.strings();
     report_.width = options.width, report_.height = options.height;
@@ -67,17 +77,19 @@ class Run {
   }
 
   SceneResult draw_scene(int number) {
-    Renderer& renderer = backend_.renderer();
+    Renderer& renderer = painted_ ? *painted_ : backend_.renderer();
     SceneResult result;
     result.scene = number;
     {
       const std::unique_ptr<Scene> scene = make_scene(number, renderer, assets_);
       malloc_trim(0);  // the images' own pixels have been handed over by now
       result.triangles = scene->triangle_count();
-      result.first_ms = time_frame(*scene, renderer, motion_at(0, options_.animate));
+      result.first_ms = time_frame(*scene, renderer, motion_at(0, options_.animate)).ms;
       if (report_.scenes.empty()) report_.start_to_first_picture_ms = milliseconds_since_process_start();
       for (int frame = 1; frame <= options_.frames; ++frame) {
-        result.frame_ms.push_back(time_frame(*scene, renderer, motion_at(frame, options_.animate)));
+        const FrameTime time = time_frame(*scene, renderer, motion_at(frame, options_.animate));
+        result.frame_ms.push_back(time.ms);
+        result.frame_cpu_ms.push_back(time.cpu_ms);
       }
     }
     malloc_trim(0);
@@ -106,6 +118,7 @@ class Run {
   Backend& backend_;
   const Options& options_;
   Assets assets_;
+  std::optional<PaintedRenderer> painted_;
   PictureSpool spool_;
   Report report_;
   bool failed_ = false;

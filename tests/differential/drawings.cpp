@@ -55,7 +55,9 @@ void draw_owners(const DrawJob& job, Renderer renderer, Drawings& drawings) {
   const fs::path out = job.out / (std::string(folder_name(renderer)) + "_owners");
   fs::create_directories(out);
   compare::ChildCommand command;
-  command.arguments = {compare::house_program("ref_app_owners").string(),
+  command.arguments = {compare::house_program("ref_app_osmesa").string(),
+                       "--paint",
+                       "owners",
                        "--size",
                        std::to_string(job.width) + "x" + std::to_string(job.height),
                        "--frames",
@@ -76,7 +78,7 @@ void draw_owners(const DrawJob& job, Renderer renderer, Drawings& drawings) {
   }
   command.output = out / "log.txt";
   if (compare::run_child(command).exit_code != 0)
-    throw std::runtime_error("ref_app_owners failed:\n" + whole_file(command.output));
+    throw std::runtime_error("ref_app_osmesa --paint owners failed:\n" + whole_file(command.output));
   const compare::SceneResult result = compare::read_scene_result(out / "result.json");
   if (result.renderer.starts_with("Halfspace") != is_ours(renderer))
     throw std::runtime_error("\"" + result.renderer + "\" drew in place of " +

@@ -1,4 +1,4 @@
-// The pictures to be judged: ref_app and ref_app_owners run as child processes on a library each.
+// The pictures to be judged: ref_app runs as a child process on a library each.
 #pragma once
 
 #include <filesystem>
