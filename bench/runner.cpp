@@ -1,0 +1,92 @@
+#include "bench/runner.h"
+
+#include <fstream>
+#include <istream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "bench/gl.h"
+
+namespace halfspace::bench {
+
+Run::Run(const Library& library, const Workload& workload, Screen screen)
+    : screen_(screen), context_(library, screen), frame_(workload.prepare(screen)) {}
+
+Times Run::frames(int count) {
+  const Times start = now();
+  for (int i = 0; i < count; ++i) frame_();
+  const Times time = now() - start;
+  if (const GLenum error = gl.GetError(); error != GL_NO_ERROR)
+    throw std::runtime_error("GL recorded error " + std::to_string(error));
+  return time;
+}
+
+void Run::save_picture(const std::filesystem::path& path) const {
+  const auto width = static_cast<size_t>(screen_.width), height = static_cast<size_t>(screen_.height);
+  std::string text = "P6\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
+  for (size_t row = height; row-- > 0;)
+    for (size_t column = 0; column < width; ++column) {
+      const uint32_t pixel = context_.pixels()[row * width + column];
+      for (const unsigned shift : {0u, 8u, 16u}) text += static_cast<char>(pixel >> shift & 255u);
+    }
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << text).flush()) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::string gl_string(GLenum name) { return reinterpret_cast<const char*>(gl.GetString(name)); }
+
+class Servant {
+ public:
+  Servant(const Library& library, Screen screen) : library_(library), screen_(screen) {}
+
+  Json answer(const std::string& line) {
+    std::istringstream words(line);
+    std::string order, argument;
+    words >> order;
+    std::getline(words >> std::ws, argument);
+    if (order == "open") return open(argument);
+    if (order == "memory") return {{"peak_kib", peak_resident_kib()}};
+    if (!run_) throw std::runtime_error(order + ": nothing is open");
+    if (order == "run") return run(std::stoi(argument));
+    if (order == "picture") run_->save_picture(argument);
+    if (order == "close") run_.reset();
+    return Json::object();
+  }
+
+ private:
+  Json open(const std::string& name) {
+    run_.reset();  // one context at a time
+    run_ = std::make_unique<Run>(library_, workload_named(name), screen_);
+    return {{"renderer", gl_string(GL_RENDERER)}, {"version", gl_string(GL_VERSION)}};
+  }
+  Json run(int count) {
+    const Times time = run_->frames(count);
+    return {{"cpu_ms", time.cpu_ms}, {"wall_ms", time.wall_ms}};
+  }
+
+  const Library& library_;
+  Screen screen_;
+  std::unique_ptr<Run> run_;
+};
+
+}  // namespace
+
+void serve(const Library& library, Screen screen, std::istream& in, std::ostream& out) {
+  Servant servant(library, screen);
+  for (std::string line; std::getline(in, line);) {
+    Json answer;
+    try {
+      answer = servant.answer(line);
+    } catch (const std::exception& error) {
+      answer = {{"error", error.what()}};
+    }
+    out << answer.dump() << std::endl;
+  }
+}
+
+}  // namespace halfspace::bench

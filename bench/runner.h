@@ -1,0 +1,39 @@
+// Runs workloads, and takes orders to do so.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/clock.h"
+#include "bench/workload.h"
+
+namespace halfspace::bench {
+
+// One workload in a context of its own.
+class Run {
+ public:
+  Run(const Library& library, const Workload& workload, Screen screen);
+  // Draws so many frames, and gives the time of all. Throws std::runtime_error when GL recorded an error.
+  Times frames(int count);
+  // The frame drawn last, as PPM. Throws std::runtime_error when it cannot be written.
+  void save_picture(const std::filesystem::path& path) const;
+
+ private:
+  Screen screen_;
+  Context context_;
+  Frame frame_;
+};
+
+// A program that compares libraries starts this one once for each and lets them take turns. A line of `in` is
+// an order, and is answered by a line of JSON; what failed, by {"error": "..."}. Until `in` ends.
+//   open NAME      a fresh context, the workload prepared; answers renderer, version
+//   run COUNT      so many frames; answers cpu_ms and wall_ms, of all together
+//   picture PATH   the last frame, as PPM
+//   memory         answers peak_kib
+//   close
+void serve(const Library& library, Screen screen, std::istream& in, std::ostream& out);
+
+}  // namespace halfspace::bench
