@@ -13,6 +13,7 @@ struct ClipPlane {
 // In the order they are applied. Near and far first: what they leave normally has w > 0 already, and the
 // other planes then meet no huge numbers.
 inline constexpr int kClipPlanes = 7;
+inline constexpr int kDepthClipPlanes = 3;  // of them: near, far, w; the others are the guard band's
 void make_clip_planes(const WindowTransform& window, ClipPlane (&planes)[kClipPlanes]);
 
 inline double distance(const ClipPlane& p, const ClipVertex& v) {

@@ -74,6 +74,8 @@ class ShapeAssembler {
   }
   static constexpr unsigned kUserMask = user_outcode(kMaxClipPlanes) - user_outcode(0);
   static constexpr unsigned kCutMask = kOutCutMask | kUserMask;
+  static constexpr unsigned kSides = kOutLeft | kOutRight | kOutBottom | kOutTop;
+  static constexpr unsigned kViewMask = kSides | kOutNear | kOutFar | kOutW;
 
   uint32_t append(const PrimitiveRef& ref) {
     segment_.primitives.push_back(ref);
@@ -234,7 +236,9 @@ class ShapeAssembler {
   }
 
   void outline(PolygonMode mode, unsigned any, const uint8_t* edge_flags, const Face& face) {
-    if (any & kUserMask) return cut_outline(mode, any, edge_flags, face);
+    // A line is cut when it is drawn; for points it matters where an edge enters the view volume.
+    const unsigned cuts = mode == PolygonMode::line ? kUserMask : kUserMask | kViewMask;
+    if (any & cuts) return cut_outline(mode, any, edge_flags, face);
     const size_t n = corners_.size();
     for (size_t i = 0; i < n; ++i) {
       const uint32_t v = corners_[i];
@@ -253,6 +257,7 @@ class ShapeAssembler {
       cut_.back().edge = !edge_flags || edge_flags[v];
     }
     cut_by_user_planes(any, cut_, cut_scratch_);
+    if (mode == PolygonMode::point) cut_by_view_volume(window_, any, cut_, cut_scratch_);
     const size_t n = cut_.size();
     for (size_t i = 0; i < n; ++i) {
       if (!cut_[i].edge) continue;
@@ -266,7 +271,6 @@ class ShapeAssembler {
 
   // --- lines
 
-  static constexpr unsigned kSides = kOutLeft | kOutRight | kOutBottom | kOutTop;
   struct Ends {
     ShapeVertex end[2];
   };
@@ -331,11 +335,9 @@ class ShapeAssembler {
             append({{v, v, face.provoking}, PrimitiveKind::point, false, face.back, 2}));
   }
 
-  // One of a cut polygon's: its codes are not known yet.
+  // One of a cut polygon's, which is inside but for rounding.
   void point(const ShapeVertex& vertex, const Face& face) {
-    const ClipVertex& c = vertex.clip;
-    const bool inside = std::abs(c.x) <= c.w && std::abs(c.y) <= c.w && std::abs(c.z) <= c.w && c.w >= kMinW;
-    if (!inside) return;
+    if (!(vertex.clip.w > 0)) return;
     CutTriangle cut{};
     place_vertex(draw_, window_, vertex, cut.x[0], cut.y[0]);
     cut.x[2] = cut.x[1] = cut.x[0], cut.y[2] = cut.y[1] = cut.y[0];

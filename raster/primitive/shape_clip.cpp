@@ -14,25 +14,39 @@ ShapeVertex made_vertex(const ShapeVertex& in, double d_in, const ShapeVertex& o
   for (int i = 0; i < kMaxClipPlanes; ++i) v.user[i] = crossing(in.user[i], d_in, out.user[i], d_out);
   for (int i = 0; i < kMaxPlanes - 2; ++i) v.value[i] = crossing(in.value[i], d_in, out.value[i], d_out);
   v.original = -1;
-  v.edge = true;
+  v.edge = false;
   return v;
 }
 
-void cut_polygon(int plane, const std::vector<ShapeVertex>& in, std::vector<ShapeVertex>& out) {
+// Sutherland and Hodgman's step. `new_edge`: whether the edge along the plane is drawn.
+template <class Distance>
+void cut_polygon(Distance distance, bool new_edge, const std::vector<ShapeVertex>& in,
+                 std::vector<ShapeVertex>& out) {
   out.clear();
   if (in.empty()) return;
   const ShapeVertex* previous = &in.back();
+  double d_previous = distance(*previous);
   for (const ShapeVertex& current : in) {
-    const double d = current.user[plane], d_previous = previous->user[plane];
+    const double d = distance(current);
     if (d >= 0 && d_previous < 0) {
       out.push_back(made_vertex(current, d, *previous, d_previous));
       out.back().edge = previous->edge;
     }
-    if (d < 0 && d_previous >= 0) out.push_back(made_vertex(*previous, d_previous, current, d));
+    if (d < 0 && d_previous >= 0) {
+      out.push_back(made_vertex(*previous, d_previous, current, d));
+      out.back().edge = new_edge;
+    }
     if (d >= 0) out.push_back(current);
     previous = &current;
+    d_previous = d;
   }
 }
+
+// The sides of the view volume. Polygons that are filled are cut there by the scissor.
+constexpr ClipPlane kSides[] = {{kOutLeft, 1, 0, 0, 1, 0},
+                                {kOutRight, -1, 0, 0, 1, 0},
+                                {kOutBottom, 0, 1, 0, 1, 0},
+                                {kOutTop, 0, -1, 0, 1, 0}};
 
 // d: distances of the ends. False: nothing is left.
 bool cut_line(const double (&d)[2], ShapeVertex (&ends)[2]) {
@@ -73,9 +87,22 @@ void cut_by_user_planes(unsigned codes, std::vector<ShapeVertex>& polygon,
                         std::vector<ShapeVertex>& scratch) {
   for (int i = 0; i < kMaxClipPlanes; ++i) {
     if (!(codes & user_outcode(i))) continue;
-    cut_polygon(i, polygon, scratch);
+    cut_polygon([i](const ShapeVertex& v) { return v.user[i]; }, true, polygon, scratch);
     polygon.swap(scratch);
   }
+}
+
+void cut_by_view_volume(const WindowTransform& window, unsigned codes, std::vector<ShapeVertex>& polygon,
+                        std::vector<ShapeVertex>& scratch) {
+  const auto cut = [&](const ClipPlane& plane) {
+    if (!(codes & plane.outcode)) return;
+    cut_polygon([&](const ShapeVertex& v) { return distance(plane, v.clip); }, false, polygon, scratch);
+    polygon.swap(scratch);
+  };
+  ClipPlane planes[kClipPlanes];
+  make_clip_planes(window, planes);
+  for (int i = 0; i < kDepthClipPlanes; ++i) cut(planes[i]);
+  for (const ClipPlane& plane : kSides) cut(plane);
 }
 
 bool cut_shape_line(const WindowTransform& window, unsigned codes, bool sides, ShapeVertex (&ends)[2]) {
@@ -91,10 +118,6 @@ bool cut_shape_line(const WindowTransform& window, unsigned codes, bool sides, S
   for (const ClipPlane& plane : planes) {
     if (!cut(plane)) return false;
   }
-  constexpr ClipPlane kSides[] = {{kOutLeft, 1, 0, 0, 1, 0},
-                                  {kOutRight, -1, 0, 0, 1, 0},
-                                  {kOutBottom, 0, 1, 0, 1, 0},
-                                  {kOutTop, 0, -1, 0, 1, 0}};
   for (const ClipPlane& plane : kSides) {
     if (sides && !cut(plane)) return false;
   }

@@ -25,6 +25,11 @@ ShapeVertex shape_vertex(const DrawRecord& draw, uint32_t v, bool back);
 // what is left of an edge keeps its flag (spec 2.11). `scratch` is used on the way.
 void cut_by_user_planes(unsigned codes, std::vector<ShapeVertex>& polygon, std::vector<ShapeVertex>& scratch);
 
+// And by the planes of the view volume that `codes` names. What they make is no edge of the polygon: HACKING,
+// "Rules of the picture".
+void cut_by_view_volume(const WindowTransform& window, unsigned codes, std::vector<ShapeVertex>& polygon,
+                        std::vector<ShapeVertex>& scratch);
+
 // Cuts a line by the planes that `codes` names: near, far, w, guard band, user planes; `sides`: those of the
 // view volume too. False: nothing is left.
 bool cut_shape_line(const WindowTransform& window, unsigned codes, bool sides, ShapeVertex (&ends)[2]);

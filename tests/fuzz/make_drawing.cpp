@@ -176,11 +176,11 @@ void add_arrays(Maker& m) { draw_arrays(m, random_shape(m)); }
 // Elsewhere flags are ignored, and not by Mesa.
 void add_edge_flags(Maker& m) {
   if (m.stippled || !m.lists.empty()) return;
+  prepare_for_edges(m);
   Shape shape = random_shape(m);
   while (shape.mode != GL_TRIANGLES && shape.mode != GL_QUADS && shape.mode != GL_POLYGON)
     shape = random_shape(m);
   for (Vertex& v : shape.vertices) v.edge = m.random.chance(50);
-  prepare_for_edges(m);
   m.call(Command::glPolygonMode, {GL_FRONT_AND_BACK, double(m.random.pick({GL_LINE, GL_POINT}))});
   m.call(Command::glBegin, {double(shape.mode)});
   for (const Vertex& v : shape.vertices) {
@@ -192,6 +192,7 @@ void add_edge_flags(Maker& m) {
 }
 
 void add_rect(Maker& m) {
+  if (m.triangles_only && m.polygon_points) return;
   const std::vector<float> color = m.color();
   m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
   // Two in one plane would fight for depth.

@@ -41,7 +41,15 @@ void add_viewport(Maker& m) {
 
 void add_depth_range(Maker& m) { m.call(Command::glDepthRange, {m.random.real(0, 1), m.random.real(0, 1)}); }
 
+// Mesa cuts polygons into triangles first, so that a plane of the program's makes points on their diagonals.
+void leave_out_diagonals(Maker& m) {
+  if (m.polygon_points && m.clip_planes) m.triangles_only = true;
+}
+
 void add_clip_plane(Maker& m) {
+  if (m.polygon_points && !m.lists.empty()) return;
+  m.clip_planes = true;
+  leave_out_diagonals(m);
   const double plane = GL_CLIP_PLANE0 + m.random.below(6);
   m.call(Command::glClipPlane, {plane, 0},
          std::vector<double>{m.random.real(-1, 1), m.random.real(-1, 1), m.random.real(-1, 1),
@@ -107,7 +115,7 @@ void add_line_stipple(Maker& m) {
 }
 
 void add_point_size(Maker& m) {
-  if (!m.polygon_points) m.call(Command::glPointSize, {double(m.random.between(1, 9))});
+  m.call(Command::glPointSize, {double(m.random.between(1, 9))});
 }
 
 void add_smoothing(Maker& m) {
@@ -134,11 +142,10 @@ void add_pop_attributes(Maker& m) {
 
 }  // namespace
 
-// Whether there is a point where the volume cuts an edge, is open: let it be small. So is the order in which
-// the edges of a polygon are drawn: let them have one colour.
+// In which order the edges of a polygon are drawn is open: let them have one colour.
 void prepare_for_edges(Maker& m) {
   m.polygon_points = true;
-  m.call(Command::glPointSize, {1});
+  leave_out_diagonals(m);
   draw_flat(m);
   m.set_enabled(GL_TEXTURE_1D, false);
   m.set_enabled(GL_TEXTURE_2D, false);

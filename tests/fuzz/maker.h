@@ -81,6 +81,8 @@ struct Maker {
   bool transfers = false;
   // Polygons may be drawn as points or lines.
   bool polygon_points = false;
+  // There are clip planes.
+  bool clip_planes = false;
   int pushed_matrices = 0, pushed_attributes = 0, pushed_client_attributes = 0;
   std::vector<double> lists;  // names of display lists that can be called
 

@@ -257,5 +257,34 @@ TEST(PolygonMode, EdgesMadeByUserPlanesAreDrawn) {
   }
 }
 
+// Spec 2.11, 3.5.4: where the boundary comes back into the view volume a vertex is made, with the flag of the
+// edge it lies on; where it leaves starts what is no edge of the polygon. At a user plane that is one.
+TEST(PolygonMode, PointsWhereTheBoundaryIsCut) {
+  DrawState state = adding_state();
+  state.polygon.front = state.polygon.back = PolygonMode::point;
+  state.point.size = 9;
+  const int low = 30 * 256 + 128, high = 90 * 256 + 128;
+  std::vector<Vertex> v = snapped_quad(20 * 256 + 128, low, 180 * 256 + 128, high, kSize);
+  const auto marks = [&](const Picture& picture, int x) {
+    return std::pair(int(picture.pixel(x, 30)[0]), int(picture.pixel(x, 90)[0]));
+  };
+  const std::pair neither(0, 0), upper(0, 255), both(255, 255);
+  Picture picture = drawn(state, Primitive::quads, v);
+  EXPECT_EQ(marks(picture, 20), both);
+  EXPECT_EQ(marks(picture, 127), upper);  // the side of the window: counter-clockwise it is left below
+  const uint8_t flags[] = {1, 1, 0, 1};
+  EXPECT_EQ(marks(drawn(state, Primitive::quads, v, flags), 127), neither);
+  // Near: z = -1 half way between 20.5 and 180.5.
+  v[0].z = v[3].z = 0, v[1].z = v[2].z = -2;
+  picture = drawn(state, Primitive::quads, v);
+  EXPECT_EQ(marks(picture, 100), upper);
+  EXPECT_EQ(marks(picture, 127), neither);
+  state.clip_planes.enabled = 1;
+  state.clip_planes.planes[0] = {-1, 0, 0, 0};  // x <= 64
+  picture = drawn(state, Primitive::quads, v);
+  EXPECT_EQ(marks(picture, 64), both);
+  EXPECT_EQ(marks(picture, 100), neither);
+}
+
 }  // namespace
 }  // namespace halfspace::test
