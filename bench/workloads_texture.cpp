@@ -13,13 +13,13 @@ constexpr int kPlanes = 20;
 constexpr int kTextureSize = 256;
 
 struct Corner {
-  std::array<float, 4> position;
+  std::array<float, 3> position;
   std::array<float, 4> color;
   std::array<float, 2> texture;
 };
 using Plane = std::array<Corner, 4>;
 
-// 1/w = middle + across x + up y over the screen, x and y from -1 to 1.
+// A plane that fills the screen: 1/w = middle + across x + up y, x and y from -1 to 1; w is the distance.
 struct Perspective {
   float middle, across, up;
   float w_at(float x, float y) const { return 1 / (middle + across * x + up * y); }
@@ -27,24 +27,34 @@ struct Perspective {
 
 constexpr std::array<std::array<float, 2>, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
 
-// `share` of the colour's gradients, times w, keeps it a plane in perspective, and between 0 and 1.
-Corner make_corner(float x, float y, float w, float depth, float share, const PlanarColor& planar) {
-  const auto [red, green, blue] = planar.at(x * w * share, y * w * share);
-  return {{x * w, y * w, depth * w, w}, {red, green, blue, 0.8F + 0.2F * x * w * share}, {}};
+void use_perspective() {
+  constexpr double kNear = 0.25, kFar = 64;
+  gl.MatrixMode(GL_PROJECTION);
+  gl.LoadIdentity();
+  gl.Frustum(-kNear, kNear, -kNear, kNear, kNear, kFar);
+  gl.MatrixMode(GL_MODELVIEW);
 }
 
-// Turned about an axis of its own; four repeats of the texture over the screen where w is 1.
+// `largest` w of the plane: divided by it, the colour stays between 0 and 1.
+Corner make_corner(float x, float y, float w, float largest, const PlanarColor& planar) {
+  const float share = w / largest;
+  const auto [red, green, blue] = planar.at(x * share, y * share);
+  return {{x * w, y * w, -w}, {red, green, blue, 0.8F + 0.2F * x * share}, {}};
+}
+
+// Planes behind each other, the last one nearest; the texture is turned on each, and about a texel a pixel
+// wide.
 Plane make_plane(int number, Screen screen, Numbers& numbers) {
   const float angle = 2 * static_cast<float>(number);
-  const Perspective perspective{1, 0.25F * std::cos(angle), 0.25F * std::sin(angle)};
-  const float depth = 0.9F - 1.8F * static_cast<float>(number) / kPlanes;
-  const float repeats = static_cast<float>(screen.width) / kTextureSize / 2;
+  const float near = 0.7F + 0.3F * static_cast<float>(number) / kPlanes;
+  const Perspective perspective{near, 0.28F * near, 0.14F * near};
+  const float repeats = static_cast<float>(screen.width) / kTextureSize / 2 * near;
   const PlanarColor color(numbers);
   Plane plane;
   for (size_t i = 0; i < 4; ++i) {
     const auto [x, y] = kCorners[i];
     const float w = perspective.w_at(x, y);
-    plane[i] = make_corner(x, y, w, depth, 0.6F, color);
+    plane[i] = make_corner(x, y, w, perspective.w_at(-1, -1), color);
     plane[i].texture = {repeats * w * (x * std::cos(angle) - y * std::sin(angle)),
                         repeats * w * (x * std::sin(angle) + y * std::cos(angle))};
   }
@@ -63,7 +73,7 @@ Plane make_floor(int number, Screen screen, Numbers& numbers) {
   for (size_t i = 0; i < 4; ++i) {
     const auto [x, y] = kCorners[i];
     const float w = perspective.w_at(x, y);
-    plane[i] = make_corner(x, y, w, 0, 1 / kFar, color);
+    plane[i] = make_corner(x, y, w, kFar, color);
     plane[i].texture = {across * w * x + 0.37F * static_cast<float>(number), away * w};
   }
   return plane;
@@ -75,6 +85,7 @@ Frame draw_planes(MakePlane make, Screen screen) {
   Numbers numbers(11);
   std::vector<Plane> planes;
   for (int i = 0; i < kPlanes; ++i) planes.push_back(make(i, screen, numbers));
+  use_perspective();
   return [planes] {
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl.Begin(GL_QUADS);
@@ -82,7 +93,7 @@ Frame draw_planes(MakePlane make, Screen screen) {
       for (const Corner& corner : plane) {
         gl.Color4f(corner.color[0], corner.color[1], corner.color[2], corner.color[3]);
         gl.TexCoord2f(corner.texture[0], corner.texture[1]);
-        gl.Vertex4f(corner.position[0], corner.position[1], corner.position[2], corner.position[3]);
+        gl.Vertex3fv(corner.position.data());
       }
     gl.End();
     gl.Finish();
@@ -134,7 +145,7 @@ Frame tex_full(Screen screen) {
   constexpr std::array<float, 4> kFogColor{0.6F, 0.7F, 0.8F, 1};
   gl.Enable(GL_FOG);
   gl.Fogi(GL_FOG_MODE, GL_EXP2);
-  gl.Fogf(GL_FOG_DENSITY, 0.7F);
+  gl.Fogf(GL_FOG_DENSITY, 0.5F);
   gl.Fogfv(GL_FOG_COLOR, kFogColor.data());
   return draw_planes(make_plane, screen);
 }
