@@ -98,14 +98,52 @@ struct AxisLine {
     return true;
   }
 
-  // A column more than the line's own on either side: a diamond there may still be met.
-  int64_t first_column() const { return (std::min(u0, u0 + du) >> kSubpixelBits) - 1; }
-  int64_t last_column() const { return (std::max(u0, u0 + du) >> kSubpixelBits) + 1; }
+  // The columns whose diamonds the line, once moved, reaches into: an end on the boundary of two is moved to the
+  // lower one.
+  int64_t first_column() const { return column_below(std::min(u0, u0 + du)); }
+  int64_t last_column() const { return column_below(std::max(u0, u0 + du)); }
+
+  // The line meets the middle of such a column, in a point of an open diamond unless exactly between two, and does
+  // not end in one of the column's: there is a fragment, where the line is at the middle.
+  bool passes_through(int64_t u) const {
+    const int64_t center = u * kSubpixelScale + kHalf;
+    return std::min(u0, u0 + du) < center && center < std::max(u0, u0 + du) && std::abs(u0 + du - center) > kHalf;
+  }
 
  private:
+  static int64_t column_below(int64_t u) { return ((u + kSubpixelScale - 1) >> kSubpixelBits) - 1; }
   bool makes_fragment(int64_t u, int64_t v) const {
     return steep ? line.makes_fragment(v, u) : line.makes_fragment(u, v);
   }
+};
+
+// The fragments of a line column by column; where nothing is to be decided, without a division.
+class ColumnWalk {
+ public:
+  ColumnWalk(const AxisLine& line, int64_t first) : line_(line), u_(first) {
+    const int64_t length = std::abs(line.du), rise = line.du < 0 ? -line.dv : line.dv;
+    pitch_ = length * kSubpixelScale;
+    const int64_t scaled = line.v0 * length + rise * (first * kSubpixelScale + kHalf - line.u0);
+    v_ = floor_div(scaled, pitch_);
+    rest_ = scaled - v_ * pitch_;
+    step_ = rise * kSubpixelScale;  // at most a pitch, either way
+  }
+  int64_t u() const { return u_; }
+  bool fragment(int64_t* v) const {
+    if (rest_ == 0 || !line_.passes_through(u_)) return line_.fragment(u_, v);
+    *v = v_;
+    return true;
+  }
+  void next() {
+    ++u_;
+    rest_ += step_;
+    if (rest_ >= pitch_) rest_ -= pitch_, ++v_;
+    if (rest_ < 0) rest_ += pitch_, --v_;
+  }
+
+ private:
+  const AxisLine& line_;
+  int64_t u_, v_, rest_, step_, pitch_;  // at column u_ the line is at v_ + rest_ / pitch_
 };
 
 bool passes(const LineStipple& stipple, uint32_t index) {
@@ -125,9 +163,12 @@ LineRun line_run(const LineEnds& ends, int width) {
   return {int(axis.du > 0 ? low : high), uint32_t(high - low + 1)};
 }
 
-void cover_line(const LineEnds& ends, int width, const LineStipple& stipple, int tile_x, int tile_y,
-                const Rect& bounds, const Rect& middle, TileCoverage& out) {
-  out.touched = 0;
+namespace {
+
+// Calls visit(x, y), relative to the tile, for every pixel of the line.
+template <class Visit>
+void walk_line(const LineEnds& ends, int width, const LineStipple& stipple, int tile_x, int tile_y, const Rect& bounds,
+               const Rect& middle, Visit visit) {
   const AxisLine axis(ends, width);
   const Rect area = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
   if (area.empty() || axis.du == 0) return;
@@ -138,19 +179,42 @@ void cover_line(const LineEnds& ends, int width, const LineStipple& stipple, int
   const int v_low = steep ? area.x0 : area.y0, v_high = steep ? area.x1 : area.y1;
   const int middle_low = steep ? middle.x0 : middle.y0, middle_high = steep ? middle.x1 : middle.y1;
   const int64_t last = std::min<int64_t>(axis.last_column(), u_high - 1);
-  for (int64_t column = std::max<int64_t>(axis.first_column(), u_low); column <= last; ++column) {
+  for (ColumnWalk walk(axis, std::max<int64_t>(axis.first_column(), u_low)); walk.u() <= last; walk.next()) {
     int64_t v;
-    if (!axis.fragment(column, &v)) continue;
+    if (!walk.fragment(&v)) continue;
     const int64_t center = v + (width - 1) / 2;
     if (center < middle_low || center >= middle_high) continue;
-    const int u = int(column);
+    const int u = int(walk.u());
     if (stipple.on && !passes(stipple, uint32_t(std::abs(u - run.first)))) continue;
     const int64_t end = std::min<int64_t>(v + width, v_high);
     for (int64_t row = std::max<int64_t>(v, v_low); row < end; ++row) {
       const int w = int(row);
-      set_pixel(out, (steep ? w : u) - tile_x, (steep ? u : w) - tile_y);
+      visit((steep ? w : u) - tile_x, (steep ? u : w) - tile_y);
     }
   }
+}
+
+}  // namespace
+
+void cover_line(const LineEnds& ends, int width, const LineStipple& stipple, int tile_x, int tile_y,
+                const Rect& bounds, const Rect& middle, TileCoverage& out) {
+  out.touched = 0;
+  walk_line(ends, width, stipple, tile_x, tile_y, bounds, middle, [&](int x, int y) { set_pixel(out, x, y); });
+}
+
+void list_line(const LineEnds& ends, const LineStipple& stipple, int tile_x, int tile_y, const Rect& bounds,
+               PixelList& out) {
+  int count = 0;
+  uint64_t touched = 0;
+  walk_line(ends, 1, stipple, tile_x, tile_y, bounds, bounds, [&](int x, int y) {
+    out.x[count] = uint8_t(x), out.y[count] = uint8_t(y);
+    ++count;
+    touched |= uint64_t{1} << (y / kBlockSize * (kTileSize / kBlockSize) + x / kBlockSize);
+  });
+  out.count = count;
+  out.touched = touched;
+  const int first = count / PixelList::kGroup * PixelList::kGroup;
+  for (; count % PixelList::kGroup != 0; ++count) out.x[count] = out.x[first], out.y[count] = out.y[first];
 }
 
 Rect point_square(int32_t x, int32_t y, int size) {

@@ -79,6 +79,20 @@ HWY_INLINE hn::Mask<DIq> PassesDepth(CompareFunc func, hn::Vec<DIq> z, hn::Vec<D
   return hn::Eq(z, z);
 }
 
+HWY_INLINE bool PassesDepth(CompareFunc func, int32_t z, int32_t old) {
+  switch (func) {
+    case CompareFunc::never: return false;
+    case CompareFunc::less: return z < old;
+    case CompareFunc::equal: return z == old;
+    case CompareFunc::less_equal: return z <= old;
+    case CompareFunc::greater: return z > old;
+    case CompareFunc::not_equal: return z != old;
+    case CompareFunc::greater_equal: return z >= old;
+    case CompareFunc::always: break;
+  }
+  return true;
+}
+
 struct Packer {
   PixelQueue queue;
   unsigned variant = 0;  // of all that waits
@@ -87,7 +101,6 @@ struct Packer {
   // Fragments of one primitive at the pixels `mask` of the window whose first pixel is (x, y) of the tile.
   HWY_INLINE void Append(const SetupBatch& s, int lane, int x, int y, uint64_t mask, const PipelineProgram& program,
                          int plane_count, uint32_t* depth) {
-    const DFq df;
     const DIq di;
     const hn::Rebind<uint8_t, DIq> bytes;
     while (mask != 0) {
@@ -96,21 +109,30 @@ struct Packer {
       const auto index = hn::PromoteTo(di, hn::LoadU(bytes, reinterpret_cast<const uint8_t*>(&indices)));
       const auto px = hn::Add(hn::And(index, hn::Set(di, 7)), hn::Set(di, x));
       const auto py = hn::Add(hn::ShiftRight<3>(index), hn::Set(di, y));
-      const auto offset = TileOffset(px, py);
-      auto live = hn::Lt(hn::Iota(di, 0), hn::Set(di, count));
-      if (depth != nullptr) live = DepthTest(s, lane, px, py, offset, live, program.depth, depth);
-      const auto dx = hn::Add(hn::ConvertTo(df, px), hn::Set(df, static_cast<float>(s.anchor_x[lane])));
-      const auto dy = hn::Add(hn::ConvertTo(df, py), hn::Set(df, static_cast<float>(s.anchor_y[lane])));
-      const auto keep = hn::RebindMask(df, live);
-      for (int p = 1; p < plane_count; ++p) {
-        const auto row = hn::Add(hn::Set(df, s.f0_f[p][lane]), hn::Mul(hn::Set(df, s.dfdy_f[p][lane]), dy));
-        const auto value = hn::Add(row, hn::Mul(hn::Set(df, s.dfdx_f[p][lane]), dx));
-        hn::StoreU(hn::Compress(value, keep), df, queue.plane[p] + queue.count);
-      }
-      // Not CompressStore: to memory, that instruction takes a hundred cycles on Zen 4.
-      hn::StoreU(hn::Compress(offset, live), di, queue.offset + queue.count);
-      queue.count += static_cast<int>(hn::CountTrue(di, live));
+      AppendGroup(s, lane, px, py, count, program, plane_count, depth);
     }
+  }
+
+  // Of one primitive at the pixels of a list, which come in any order, each once.
+  HWY_INLINE void AppendList(const SetupBatch& s, int lane, const PixelList& list, const PipelineProgram& program,
+                             int plane_count, uint32_t* depth) {
+    const DIq di;
+    const hn::Rebind<uint8_t, DIq> bytes;
+    for (int i = 0; i < list.count; i += kQueueLanes) {
+      const auto px = hn::PromoteTo(di, hn::LoadU(bytes, list.x + i)), py = hn::PromoteTo(di, hn::LoadU(bytes, list.y + i));
+      AppendGroup(s, lane, px, py, list.count - i, program, plane_count, depth);
+    }
+  }
+
+  // A point's fragment, at a pixel of the tile, if it passes the depth test. Its planes are level, so that they need no
+  // set-up: `color` is its colour, 0..255, or null where none is asked for.
+  HWY_INLINE void AppendPoint(double z, const float* color, int x, int y, const PipelineProgram& program,
+                              uint32_t* depth) {
+    const int at = TileOffset(x, y);
+    if (depth != nullptr && !TestPoint(z, program.depth, depth[at])) return;
+    queue.offset[queue.count] = at;
+    for (int k = 0; color != nullptr && k < 4; ++k) queue.plane[program.params.color_plane + k][queue.count] = color[k];
+    ++queue.count;
   }
 
   // The last `count` fragments take the provoking vertex's colour instead of an interpolated one.
@@ -120,6 +142,38 @@ struct Packer {
   }
 
  private:
+  // Fragments at the first `count` lanes' pixels, those that pass the depth test. Lanes beyond stand for the first one's.
+  HWY_INLINE void AppendGroup(const SetupBatch& s, int lane, hn::Vec<DIq> px, hn::Vec<DIq> py, int count,
+                              const PipelineProgram& program, int plane_count, uint32_t* depth) {
+    const DFq df;
+    const DIq di;
+    const auto offset = TileOffset(px, py);
+    auto live = hn::Lt(hn::Iota(di, 0), hn::Set(di, count));
+    if (depth != nullptr) live = DepthTest(s, lane, px, py, offset, live, program.depth, depth);
+    const auto dx = hn::Add(hn::ConvertTo(df, px), hn::Set(df, static_cast<float>(s.anchor_x[lane])));
+    const auto dy = hn::Add(hn::ConvertTo(df, py), hn::Set(df, static_cast<float>(s.anchor_y[lane])));
+    const auto keep = hn::RebindMask(df, live);
+    for (int p = 1; p < plane_count; ++p) {
+      const auto row = hn::Add(hn::Set(df, s.f0_f[p][lane]), hn::Mul(hn::Set(df, s.dfdy_f[p][lane]), dy));
+      const auto value = hn::Add(row, hn::Mul(hn::Set(df, s.dfdx_f[p][lane]), dx));
+      hn::StoreU(hn::Compress(value, keep), df, queue.plane[p] + queue.count);
+    }
+    // Not CompressStore: to memory, that instruction takes a hundred cycles on Zen 4.
+    hn::StoreU(hn::Compress(offset, live), di, queue.offset + queue.count);
+    queue.count += static_cast<int>(hn::CountTrue(di, live));
+  }
+
+  static HWY_INLINE bool TestPoint(double z, const DepthState& test, uint32_t& memory) {
+    const auto value = static_cast<int32_t>(z * kDepthScale + 0.5), old = static_cast<int32_t>(memory);
+    if (!PassesDepth(test.func, value, old)) return false;
+    if (test.write) memory = static_cast<uint32_t>(value);
+    return true;
+  }
+
+  static HWY_INLINE int TileOffset(int x, int y) {
+    return (y & 56) * kBlockPixels + (x & 56) * kBlockSize + (y & 7) * kBlockSize + (x & 7);
+  }
+
   static HWY_INLINE hn::Vec<DIq> TileOffset(hn::Vec<DIq> x, hn::Vec<DIq> y) {
     const DIq d;
     const auto high = hn::Set(d, 56), low = hn::Set(d, 7);

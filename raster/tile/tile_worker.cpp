@@ -35,6 +35,7 @@ struct TileContext {
   uint64_t stipple[16];  // pixels of the blocks (y % 4) * 4 + x % 4
   int plane_count;
   bool flat_color;
+  bool packs_points;  // points of one pixel wait with the others, without any set-up
   TileStatistics* statistics;
   BlockContext block;
   SetupBatch setup;
@@ -162,32 +163,40 @@ HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
     for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) t.state->depth_max[__builtin_ctzll(todo)] = kDepthMax;
 }
 
-// Fragments at the pixels of `mask`, in the window whose first pixel is (x, y), join those that wait; `depth`: after
-// they pass the depth test there, if there is one.
-void PackWindow(TileContext& t, int lane, int x, int y, uint64_t mask, uint32_t* depth) {
-  const SetupBatch& s = t.setup;
+// Makes room for `count` fragments of `variant` in `blocks` among those that wait, and gives the depth they are tested
+// against on the way in; null: none.
+HWY_INLINE uint32_t* PreparePacking(TileContext& t, unsigned variant, int count, uint64_t blocks) {
+  PrepareWindow(t, blocks);
+  t.statistics->fragments += static_cast<uint64_t>(count);
+  // The depth test is the first stage of the unpacked list.
+  if (t.block.meter != nullptr && t.program->depth.test)
+    t.block.meter->fragments[static_cast<size_t>(t.program->variants[0].stages[0])] += static_cast<uint64_t>(count);
   Packer& packer = t.packer;
-  const int count = __builtin_popcountll(mask);
-  if (packer.variant != s.variant[lane] || packer.queue.count + count > PixelQueue::kCapacity) {
+  if (packer.variant != variant || packer.queue.count + count > PixelQueue::kCapacity) {
     FlushPacked(t);
-    packer.variant = s.variant[lane];
+    packer.variant = variant;
   }
-  const int first = packer.queue.count;
-  packer.Append(s, lane, x, y, mask, *t.program, t.plane_count, depth);
-  if (t.flat_color) packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
+  packer.blocks |= blocks;
+  return t.program->reads_depth ? t.framebuffer->depth_tile(t.tile) : nullptr;
 }
 
 // Fragments at the pixels of `mask`, in the window whose first pixel is (x, y), join those that wait once they have
 // passed the depth test. `blocks`: the blocks these pixels lie in.
 void TestAndPack(TileContext& t, int lane, int x, int y, uint64_t mask, uint64_t blocks) {
-  PrepareWindow(t, blocks);
-  const auto count = static_cast<uint64_t>(__builtin_popcountll(mask));
-  t.statistics->fragments += count;
-  // The depth test is made on the way in, the first stage of the unpacked list.
-  if (t.block.meter != nullptr && t.program->depth.test)
-    t.block.meter->fragments[static_cast<size_t>(t.program->variants[0].stages[0])] += count;
-  PackWindow(t, lane, x, y, mask, t.program->reads_depth ? t.framebuffer->depth_tile(t.tile) : nullptr);
-  t.packer.blocks |= blocks;
+  const SetupBatch& s = t.setup;
+  uint32_t* depth = PreparePacking(t, s.variant[lane], __builtin_popcountll(mask), blocks);
+  const int first = t.packer.queue.count;
+  t.packer.Append(s, lane, x, y, mask, *t.program, t.plane_count, depth);
+  if (t.flat_color) t.packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
+}
+
+// The same for the pixels of a list.
+void TestAndPackList(TileContext& t, int lane, const PixelList& list) {
+  const SetupBatch& s = t.setup;
+  uint32_t* depth = PreparePacking(t, s.variant[lane], list.count, list.touched);
+  const int first = t.packer.queue.count;
+  t.packer.AppendList(s, lane, list, *t.program, t.plane_count, depth);
+  if (t.flat_color) t.packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
 }
 
 void PackTriangle(TileContext& t, int lane) {
@@ -222,11 +231,15 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
   }
 }
 
+HWY_INLINE bool Packs(const TileContext& t, int lane) {
+  return t.program->packs && (t.setup.variant[lane] & kDouble) == 0;
+}
+
 void RunTriangle(TileContext& t, int lane) {
   const SetupBatch& s = t.setup;
   const int width = s.max_x[lane] - s.min_x[lane] + 1, height = s.max_y[lane] - s.min_y[lane] + 1;
   if (width <= 0 || height <= 0) return;
-  const bool packs = t.program->packs && (s.variant[lane] & kDouble) == 0;
+  const bool packs = Packs(t, lane);
   if (packs && width <= kWindow && height <= kWindow) PackTriangle(t, lane);
   else WalkTriangle(t, lane, packs);
 }
@@ -247,6 +260,7 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   t.block.params = &draw.program->params;
   t.plane_count = 2 + draw.vertices.layout.attribute_count;
   t.flat_color = draw.vertices.layout.color >= 0 && draw.state->raster.flat_shading;
+  t.packs_points = PacksPoints(draw);
 }
 
 void RunSegment(TileContext& t, const Segment& segment) {
@@ -265,6 +279,10 @@ void RunSegment(TileContext& t, const Segment& segment) {
       continue;
     }
     while (at < total && ids[at] < end) {
+      if (t.packs_points && RunWaitingPoint(t, segment, record, ids[at])) {
+        ++at;
+        continue;
+      }
       int count = 0;
       while (count < kSetupLanes && at + static_cast<size_t>(count) < total && ids[at + static_cast<size_t>(count)] < end)
         ++count;
