@@ -17,7 +17,7 @@ static_assert(kFirstBatchVertices % 12 == 0 && kMaxBatchVertices % 12 == 0);
 
 // Points the cursor behind `count` vertices at the start of the buffer.
 void set_cursor(ImmediateState& im, uint32_t count) {
-  const size_t capacity = im.buffer.size() / kMaxVertexFloats;
+  const size_t capacity = std::min<size_t>(im.buffer.size() / kMaxVertexFloats, im.longest);
   im.cursor = im.buffer.data() + size_t(count) * im.format.floats;
   im.limit = im.buffer.data() + capacity * im.format.floats;
 }
@@ -110,9 +110,6 @@ void part_batch(Context& context) {
   const uint32_t count = im.vertex_count();
   const Kept kept = kept_vertices(im.mode);
   remember_loop_start(im);
-  // Where a polygon is parted there is no edge of it: neither the last vertex's now nor the first one's then.
-  const bool parts_edge = im.format.edge_flag && kept.first;
-  const uint8_t last_flag = parts_edge ? std::exchange(im.edge_flags[count - 1], uint8_t{0}) : uint8_t{0};
   draw_gathered(context, batch_mode(im), count);
   std::memmove(vertex_at(im, kept.first), vertex_at(im, count - kept.last),
                kept.last * im.format.floats * sizeof(float));
@@ -120,16 +117,15 @@ void part_batch(Context& context) {
     keep_in(im.material_index, kept, count);
     trim_materials(im, kept.first + kept.last);
   }
-  if (parts_edge) im.edge_flags[0] = 0, im.edge_flags[1] = last_flag;
   im.strip_goes_on = im.mode == GL_LINE_STRIP || im.mode == GL_LINE_LOOP;
   set_cursor(im, kept.first + kept.last);
 }
 
 bool grow(ImmediateState& im) try {
   const size_t capacity = im.buffer.size() / kMaxVertexFloats;
-  if (capacity >= kMaxBatchVertices) return false;
+  if (capacity >= im.longest) return false;
   const uint32_t count = im.vertex_count();
-  const size_t wanted = capacity ? std::min<size_t>(capacity * 4, kMaxBatchVertices) : kFirstBatchVertices;
+  const size_t wanted = capacity ? std::min<size_t>(capacity * 4, im.longest) : kFirstBatchVertices;
   im.buffer.resize(wanted * kMaxVertexFloats);
   size_side_arrays(im);
   set_cursor(im, count);
@@ -142,8 +138,19 @@ bool grow(ImmediateState& im) try {
 bool make_room(Context& context) {
   ImmediateState& im = context.immediate;
   if (!im.inside) return false;
-  if (!grow(im)) part_batch(context);
+  if (grow(im)) return true;
+  if (im.longest != kMaxBatchVertices) {
+    record_error(context, GL_OUT_OF_MEMORY, "vertex");
+    return false;
+  }
+  part_batch(context);
   return true;
+}
+
+// Of a polygon that is drawn as an outline, as points or to feedback, everything is the whole's: which way it
+// faces, its offset, its edges, its token. Filled, it is as good as its triangles.
+bool may_part(const Context& context, GLenum mode, const VertexFormat& format) {
+  return mode != GL_POLYGON || (!format.edge_flag && context.render_mode.renders());
 }
 
 void start_batch(Context& context, GLenum mode) {
@@ -152,6 +159,7 @@ void start_batch(Context& context, GLenum mode) {
   im.state = derive(context);
   im.mode = mode;
   im.format = vertex_format(context, mode);
+  im.longest = may_part(context, mode, im.format) ? kMaxBatchVertices : kMaxWholeVertices;
   im.color_varies = im.loop_parted = im.strip_goes_on = false;
   im.materials.clear();
   size_side_arrays(im);

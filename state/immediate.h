@@ -30,6 +30,8 @@ VertexFormat vertex_format(const Context& context, GLenum mode);
 // The longest batch. A multiple of 12, so that points, lines, triangles, quads and strips all part there
 // cleanly.
 inline constexpr uint32_t kMaxBatchVertices = 65532;
+// The longest polygon that must not be parted.
+inline constexpr uint32_t kMaxWholeVertices = 1u << 28;
 
 struct ImmediateState {
   bool inside = false;        // between Begin and End
@@ -40,6 +42,7 @@ struct ImmediateState {
   float* limit = nullptr;
   bool strip_goes_on = false;  // a line strip was parted: its stipple runs on
   VertexFormat format;
+  uint32_t longest = kMaxBatchVertices;  // vertices the batch may have
   float loop_first[kMaxVertexFloats];  // a parted loop's first vertex
   uint32_t loop_first_material = 0;
   std::vector<float> buffer;                       // room for kMaxVertexFloats a vertex

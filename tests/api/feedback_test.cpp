@@ -91,6 +91,20 @@ TEST_F(FeedbackTest, PolygonsComeWhole) {
                               kPolygon, 5, 8, 4, 16, 4, 16, 6, 12, 8, 8, 8}));
 }
 
+TEST_F(FeedbackTest, AVeryLongPolygonIsStillOne) {
+  constexpr int kCorners = 100'000;
+  Values buffer(2 * kCorners + 2);
+  glFeedbackBuffer(2 * kCorners + 2, GL_2D, buffer.data());
+  glRenderMode(GL_FEEDBACK);
+  glBegin(GL_POLYGON);
+  for (int i = 0; i < kCorners; ++i)
+    glVertex2d(i == kCorners - 1 ? 0 : i / double(kCorners), i == kCorners - 1);
+  glEnd();
+  EXPECT_EQ(glRenderMode(GL_RENDER), 2 * kCorners + 2);
+  EXPECT_EQ(buffer[0], kPolygon);
+  EXPECT_EQ(buffer[1], kCorners);
+}
+
 // All triangles of a strip turn the same way, and the colour of a flat one is its last vertex's.
 TEST_F(FeedbackTest, StripsAndFansComeApart) {
   start(GL_2D);

@@ -232,23 +232,31 @@ TEST_F(ImmediateTest, EdgeFlagsComeWithPolygonModes) {
   }
 }
 
-TEST_F(ImmediateTest, APartedPolygonHasNoEdgeAtTheSeam) {
-  op::polygon_mode(*context, GL_FRONT, GL_LINE);
-  const size_t count = kMaxBatchVertices + 1000;
-  op::begin(*context, GL_POLYGON);
-  for (size_t i = 0; i < count; ++i) op::vertex(*context, float(i), 1, 0, 1);
-  end();
-  // The edges drawn, each from the vertex that bears the flag to the next one of its part.
-  std::vector<std::pair<float, float>> edges;
-  for (const RecordedDraw& draw : recorded_draws) {
-    const auto& v = draw.vertices;
-    for (size_t i = 0; i < v.size(); ++i) {
-      if (v[i].edge_flag) edges.emplace_back(v[i].position[0], v[(i + 1) % v.size()].position[0]);
+// Its facing and its offset are the whole's (spec 3.5.1, 3.5.5), and its edges.
+TEST_F(ImmediateTest, APolygonThatIsNotFilledIsNeverParted) {
+  const size_t count = kMaxBatchVertices * 5 + 1000;
+  const auto draw = [&](GLenum mode) {
+    recorded_draws.clear();
+    op::begin(*context, mode);
+    for (size_t i = 0; i < count; ++i) {
+      op::edge_flag(*context, i % 3 == 1);
+      op::vertex(*context, float(i), 1, 0, 1);
     }
+    end();
+  };
+  op::polygon_mode(*context, GL_FRONT, GL_LINE);
+  draw(GL_POLYGON);
+  ASSERT_EQ(recorded_draws.size(), 1u);
+  ASSERT_EQ(recorded_draws[0].vertices.size(), count);
+  for (size_t i = 0; i < count; ++i) {
+    ASSERT_EQ(recorded_draws[0].vertices[i].position[0], float(i));
+    ASSERT_EQ(recorded_draws[0].vertices[i].edge_flag, i % 3 == 1);
   }
-  EXPECT_EQ(recorded_draws.size(), 2u);
-  ASSERT_EQ(edges.size(), count);
-  for (size_t i = 0; i < count; ++i) EXPECT_EQ(edges[i], std::pair(float(i), float((i + 1) % count)));
+  // The buffer is long now; batches are not.
+  draw(GL_QUADS);
+  std::vector<size_t> expected(5, kMaxBatchVertices);
+  expected.push_back(1000);
+  EXPECT_EQ(batch_sizes(), expected);
 }
 
 TEST_F(ImmediateTest, MaterialsSetBetweenBeginAndEndBelongToTheVerticesAfter) {
