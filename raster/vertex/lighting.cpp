@@ -29,8 +29,23 @@ void store(const Color& c, float (&out)[4]) { out[0] = c.r, out[1] = c.g, out[2]
 
 bool is_black(const Color& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// Farther away than this, float squares of a distance would overflow; such a light is infinitely far away.
+// Farther away than this, float squares of a distance would overflow. Such a light is the same for all
+// vertices: so is its direction, and how far it is.
 constexpr double kFarAway = 1e15;
+
+// Spec 2.14.1, for the distance of P / w from the origin. Table 2.10: w = 0 is not attenuated, whatever is
+// set.
+float far_attenuation(const Light& light) {
+  const auto& p = light.position;
+  if (p[3] == 0) return 1;
+  const double longest = std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
+  const double x = p[0] / longest, y = p[1] / longest, z = p[2] / longest;
+  const double distance = std::sqrt(x * x + y * y + z * z) * (longest / std::fabs(p[3]));
+  const auto times = [](float factor, double d) { return factor == 0 ? 0 : double(factor) * d; };
+  const double sum = double(light.constant_attenuation) + times(light.linear_attenuation, distance) +
+                     times(light.quadratic_attenuation, distance * distance);
+  return float(1 / std::max(sum, 1e-15));
+}
 
 LightTerm make_term(const Light& light, bool local_viewer) {
   LightTerm term{};
@@ -45,11 +60,11 @@ LightTerm make_term(const Light& light, bool local_viewer) {
     const Vector to_light = unit({sign * p[0], sign * p[1], sign * p[2]});
     store(to_light, term.direction);
     if (!local_viewer) store(unit({to_light.x, to_light.y, to_light.z + 1}), term.half);
+    term.weight = far_attenuation(light);
   }
   term.attenuation[0] = light.constant_attenuation;
   term.attenuation[1] = light.linear_attenuation;
   term.attenuation[2] = light.quadratic_attenuation;
-  // Spec table 2.10: infinitely far lights are not attenuated, whatever is set.
   term.attenuated = term.local && (light.constant_attenuation != 1 || light.linear_attenuation != 0 ||
                                    light.quadratic_attenuation != 0);
   term.spot = light.spot_cutoff != 180;
@@ -60,7 +75,8 @@ LightTerm make_term(const Light& light, bool local_viewer) {
   store(light.ambient, term.ambient);
   store(light.diffuse, term.diffuse);
   store(light.specular, term.specular);
-  term.ambient_varies = (term.attenuated || term.spot) && !is_black(light.ambient);
+  term.ambient_varies =
+      (term.attenuated || term.spot || (!term.local && term.weight != 1)) && !is_black(light.ambient);
   return term;
 }
 

@@ -100,7 +100,7 @@ HWY_INLINE LightAt locate(const LightTerm& light, const ToLight& to, uint32_t i)
   const FloatVec one = hn::Set(f, 1.0f);
   if (!light.local) {
     return {hn::Set(f, light.direction[0]), hn::Set(f, light.direction[1]), hn::Set(f, light.direction[2]),
-            one};
+            hn::Set(f, light.weight)};
   }
   const FloatVec x = hn::Load(f, to.v[0] + i), y = hn::Load(f, to.v[1] + i), z = hn::Load(f, to.v[2] + i);
   const FloatVec square = dot(x, y, z, x, y, z), inverse = inverse_length(square);

@@ -9,13 +9,14 @@
 namespace halfspace::raster {
 
 struct LightTerm {
-  bool local;       // has a position; otherwise it is infinitely far away
+  bool local;       // has a position; otherwise it is too far away to be seen from elsewhere
   bool attenuated;  // by distance
   bool spot;
   bool ambient_varies;  // its ambient part is not in LightingJob::ambient
   double position[3];   // local: in eye coordinates
   float direction[3];   // not local: the unit vector to it
   float half[3];        // not local, and the viewer neither: the unit half vector
+  float weight;         // not local: its attenuation
   float spot_direction[3];
   float spot_cosine, spot_exponent;
   float attenuation[3];  // constant, linear, quadratic

@@ -241,6 +241,38 @@ TEST(Lighting, IsTheSpecsFormula) {
   EXPECT_GT(lit, compared / 3);
 }
 
+// However far a light is: with w = 0 it is not attenuated, with any other w it is.
+TEST(Lighting, FarLightsAreAttenuated) {
+  size_t lit = 0;
+  for (const double far : {1e6, 1e12, 1e14, 1e16, 1e25, 1e37, 1e120}) {
+    for (uint64_t seed = 0; seed < 100; ++seed) {
+      Scenario s = random_scenario(seed);
+      Random r(seed);
+      for (Light& light : s.state.lighting.lights) {
+        auto& p = light.position;
+        if (r.integer(0, 1) && far < 1e100) {
+          for (size_t k = 0; k < 3; ++k) p[k] *= far;
+        } else {
+          p[3] /= far;  // P / w
+        }
+        // So that it still shows.
+        light.linear_attenuation = float(double(light.linear_attenuation) / far);
+        light.quadratic_attenuation = float(double(light.quadratic_attenuation) / far / far);
+      }
+      const Shaded shaded = shade(s);
+      for (uint32_t i = 0; i < kVertices; ++i) {
+        const oracle::LitVertex expected = truth(s, i);
+        if (expected.margin < 1e-5L || shaded.out.layout.color < 0) continue;
+        const float* front = shaded.out.attributes(i) + shaded.out.layout.color;
+        ASSERT_LE(worst_of(expected.front, front), kLightingTolerance)
+            << far << ": seed " << seed << ", vertex " << i;
+        lit += expected.front[0] > 0 && expected.front[0] < 1;
+      }
+    }
+  }
+  EXPECT_GT(lit, 10000u);
+}
+
 // One vertex alone is that vertex of many: where it stands in a vector or a group changes nothing.
 TEST(Lighting, AVertexAloneIsTheSame) {
   for (uint64_t seed = 0; seed < 200; ++seed) {
