@@ -23,34 +23,73 @@ long double combine(EnvMode mode, long double f, long double t, long double c) {
   }
 }
 
-// Factors in levels of 255.
-int factor(BlendFactor f, const uint8_t s[4], const uint8_t d[4], int component) {
-  const int i = component;
+// Table 4.1 and 4.2; s and d in units in which `one` is 1.
+template <class T, class Colors>
+T factor(BlendFactor f, const Colors& s, const Colors& d, size_t i, T one) {
+  const auto value = [](auto v) { return static_cast<T>(v); };
   switch (f) {
     case BlendFactor::zero:
       return 0;
     case BlendFactor::one:
-      return 255;
+      return one;
     case BlendFactor::src_color:
-      return s[i];
+      return value(s[i]);
     case BlendFactor::one_minus_src_color:
-      return 255 - s[i];
+      return one - value(s[i]);
     case BlendFactor::dst_color:
-      return d[i];
+      return value(d[i]);
     case BlendFactor::one_minus_dst_color:
-      return 255 - d[i];
+      return one - value(d[i]);
     case BlendFactor::src_alpha:
-      return s[3];
+      return value(s[3]);
     case BlendFactor::one_minus_src_alpha:
-      return 255 - s[3];
+      return one - value(s[3]);
     case BlendFactor::dst_alpha:
-      return d[3];
+      return value(d[3]);
     case BlendFactor::one_minus_dst_alpha:
-      return 255 - d[3];
+      return one - value(d[3]);
     case BlendFactor::src_alpha_saturate:
-      return component == 3 ? 255 : std::min<int>(s[3], 255 - d[3]);
+      return i == 3 ? one : std::min(value(s[3]), one - value(d[3]));
   }
   return 0;
+}
+
+unsigned combined(raster::LogicOp op, unsigned s, unsigned d) {
+  switch (op) {
+    case raster::LogicOp::clear:
+      return 0;
+    case raster::LogicOp::and_:
+      return s & d;
+    case raster::LogicOp::and_reverse:
+      return s & ~d;
+    case raster::LogicOp::copy:
+      return s;
+    case raster::LogicOp::and_inverted:
+      return ~s & d;
+    case raster::LogicOp::noop:
+      return d;
+    case raster::LogicOp::xor_:
+      return s ^ d;
+    case raster::LogicOp::or_:
+      return s | d;
+    case raster::LogicOp::nor:
+      return ~(s | d);
+    case raster::LogicOp::equiv:
+      return ~(s ^ d);
+    case raster::LogicOp::invert:
+      return ~d;
+    case raster::LogicOp::or_reverse:
+      return s | ~d;
+    case raster::LogicOp::copy_inverted:
+      return ~s;
+    case raster::LogicOp::or_inverted:
+      return ~s | d;
+    case raster::LogicOp::nand:
+      return ~(s & d);
+    case raster::LogicOp::set:
+      break;
+  }
+  return ~0u;
 }
 
 }  // namespace
@@ -99,10 +138,28 @@ bool compare(CompareFunc func, long double value, long double reference) {
 
 uint8_t blend(const raster::BlendState& state, const uint8_t s[4], const uint8_t d[4], int component) {
   if (!state.enabled) return s[component];
+  const size_t k = size_t(component);
   // In units of 1/255^2; 255 is odd, so there are no ties to break.
-  const int sum =
-      s[component] * factor(state.src, s, d, component) + d[component] * factor(state.dst, s, d, component);
+  const int sum = s[k] * factor(state.src, s, d, k, 255) + d[k] * factor(state.dst, s, d, k, 255);
   return uint8_t(std::min((sum + 127) / 255, 255));
+}
+
+long double blended_level(const raster::BlendState& state, const std::array<uint8_t, 4>& s,
+                          const std::array<uint8_t, 4>& d, size_t k) {
+  const int sum = s[k] * factor(state.src, s, d, k, 255) + d[k] * factor(state.dst, s, d, k, 255);
+  return static_cast<long double>(std::min(sum, 255 * 255)) / 255;
+}
+
+long double blended(const raster::BlendState& state, const Rgba& s, const Rgba& d, size_t k) {
+  const long double sum = s[k] * factor(state.src, s, d, k, 1.0L) + d[k] * factor(state.dst, s, d, k, 1.0L);
+  return sum < 0 ? 0 : sum > 1 ? 1 : sum;
+}
+
+uint8_t combine_bits(raster::LogicOp op, uint8_t s, uint8_t d) { return uint8_t(combined(op, s, d) & 255u); }
+
+long double combine_wide(raster::LogicOp op, long double s, long double d) {
+  const auto bits = [](long double v) { return unsigned(v * 65535 + 0.5L); };
+  return (combined(op, bits(s), bits(d)) & 65535u) / 65535.0L;
 }
 
 }  // namespace halfspace::oracle

@@ -21,7 +21,8 @@ struct Position {
 
 // The affine function through `values` at three corners, at the centre of (px, py). The triangle has area.
 template <typename Real>
-Affine<Real> affine(const std::array<Position<Real>, 3>& t, const std::array<Real, 3>& values, int px, int py) {
+Affine<Real> affine(const std::array<Position<Real>, 3>& t, const std::array<Real, 3>& values, int px,
+                    int py) {
   const Real x1 = t[1].x - t[0].x, y1 = t[1].y - t[0].y;
   const Real x2 = t[2].x - t[0].x, y2 = t[2].y - t[0].y;
   const Real area = x1 * y2 - x2 * y1;

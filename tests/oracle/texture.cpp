@@ -31,19 +31,44 @@ long double wrap(Wrap mode, long double s, int size) {
   return s;
 }
 
-// Equations 3.20, 3.21: s = 1 (which only clamping lets through) is the last texel.
-int nearest_texel(long double u, int size) { return std::min(int(std::floor(u)), size - 1); }
+// Equations 3.20, 3.21: s = 1 (which only clamping lets through) is the last texel. The house takes u to the
+// nearest 1/1024 of a texel first, so that s = k / N, which as a float may lie below texel k, finds it.
+int nearest_texel(long double u, int size, Wrap mode, bool* doubtful) {
+  const long double snapped = std::floor(u * 1024 + 0.5L) / 1024, nearest_edge = std::floor(snapped + 0.5L);
+  if (doubtful && std::fabs(u - (nearest_edge - 1.0L / 2048)) < 1.0L / 1024) *doubtful = true;
+  const int texel = int(std::floor(snapped));
+  return texel < size ? texel : mode == Wrap::repeat ? 0 : size - 1;
+}
+
+// A colour as a texel of that format holds it, with 8 bits a component (spec tables 3.15 and 3.21).
+Rgba stored_border(const raster::Color& border, raster::BaseFormat format) {
+  const auto stored = [](float c) {
+    return std::floor(std::clamp(static_cast<long double>(c), 0.0L, 1.0L) * 255 + 0.5L) / 255;
+  };
+  const long double r = stored(border.r), a = stored(border.a);
+  switch (format) {
+    case raster::BaseFormat::alpha:
+      return {0, 0, 0, a};
+    case raster::BaseFormat::luminance:
+      return {r, r, r, 1};
+    case raster::BaseFormat::luminance_alpha:
+      return {r, r, r, a};
+    case raster::BaseFormat::intensity:
+      return {r, r, r, r};
+    case raster::BaseFormat::rgb:
+      return {r, stored(border.g), stored(border.b), 1};
+    case raster::BaseFormat::rgba:
+      break;
+  }
+  return {r, stored(border.g), stored(border.b), a};
+}
 
 // Spec 3.8.8: "If any of the selected texels refers to a border texel that has not been defined, the border
 // color is used." It is stored, as texels are, with 8 bits.
 Rgba texel_or_border(const Texture& texture, const Level& level, int i, int j) {
   const auto outside = [&level](int k, int size) { return k < -level.border || k >= size + level.border; };
   if (!outside(i, level.width) && !outside(j, level.height)) return level.texel(i, j);
-  const raster::Color& border = texture.sampler.border_color;
-  const auto stored = [](float c) {
-    return std::floor(std::clamp(static_cast<long double>(c), 0.0L, 1.0L) * 255 + 0.5L) / 255;
-  };
-  return {stored(border.r), stored(border.g), stored(border.b), stored(border.a)};
+  return stored_border(texture.sampler.border_color, texture.base_format);
 }
 
 int modulo(int i, int size) { return ((i % size) + size) % size; }
@@ -68,42 +93,67 @@ Rgba bilinear(const Texture& texture, const Level& level, long double u, long do
 
 }  // namespace
 
-Rgba sample_level(const Texture& texture, int index, Filter filter, long double s, long double t) {
+Rgba sample_level(const Texture& texture, int index, Filter filter, long double s, long double t,
+                  bool* doubtful) {
   const Level& level = texture.levels[size_t(index)];
   const long double u = wrap(texture.sampler.wrap_s, s, level.width) * level.width;
   const long double v = wrap(texture.sampler.wrap_t, t, level.height) * level.height;
   if (filter == Filter::linear) return bilinear(texture, level, u, v);
-  return level.texel(nearest_texel(u, level.width), nearest_texel(v, level.height));
+  const int i = nearest_texel(u, level.width, texture.sampler.wrap_s, doubtful);
+  const bool flat = texture.sampler.one_dimensional;
+  return level.texel(i, nearest_texel(v, level.height, texture.sampler.wrap_t, flat ? nullptr : doubtful));
 }
+
+namespace {
+
+constexpr long double kLevelDoubt = 1.0L / 64;  // NUMERICS: the level of detail may be off by this
+
+// Equation 3.19: the longer of the two gradients of (u, v), in texels per pixel. A one-dimensional texture
+// has no v.
+long double scale_factor(const Texture& texture, const Affine<long double>& s, const Affine<long double>& t) {
+  const Level& base = texture.levels[0];
+  const long double height = texture.sampler.one_dimensional ? 0 : base.height;
+  return std::max(std::hypot(s.dx * base.width, t.dx * height), std::hypot(s.dy * base.width, t.dy * height));
+}
+
+bool is_near(long double a, long double b) { return std::fabs(a - b) < kLevelDoubt; }
+
+// Spec 3.8.8: by MipMode::nearest, equation 3.25; by linear, equations 3.26 - 3.28.
+Rgba minified(const Texture& texture, long double s, long double t, Lookup& result) {
+  const raster::Sampler& sampler = texture.sampler;
+  const int last = int(texture.levels.size()) - 1;
+  const auto level = [&](int d) { return sample_level(texture, d, sampler.min, s, t, &result.doubtful); };
+  const long double lod = std::min(result.lod, 64.0L);
+  if (sampler.mip == MipMode::none) return level(0);
+  if (sampler.mip == MipMode::nearest) {
+    const int d = lod <= 0.5L ? 0 : int(std::ceil(lod + 0.5L)) - 1;
+    result.doubtful |= d <= last && is_near(lod + 0.5L, std::floor(lod + 1));
+    return level(std::min(d, last));
+  }
+  const int d = std::clamp(int(std::floor(lod)), 0, last);
+  return d == last ? level(last) : mix(level(d), level(d + 1), std::max(lod, 0.0L) - d);
+}
+
+}  // namespace
 
 Lookup sample(const Texture& texture, const Affine<long double>& s, const Affine<long double>& t) {
   const raster::Sampler& sampler = texture.sampler;
-  const Level& base = texture.levels[0];
-  // Equation 3.19: the longer of the two gradients of (u, v), in texels per pixel.
-  const long double rho = std::max(std::hypot(s.dx * base.width, t.dx * base.height),
-                                   std::hypot(s.dy * base.width, t.dy * base.height));
   Lookup result;
-  result.lod = std::log2(rho);
+  result.lod = std::log2(scale_factor(texture, s, t));
   // Spec 3.8.9, the switch-over point.
   const bool half =
       sampler.mag == Filter::linear && sampler.min == Filter::nearest && sampler.mip != MipMode::none;
-  result.magnified = result.lod <= (half ? 0.5L : 0.0L);
-  const int last = int(texture.levels.size()) - 1;
-  const auto level = [&](int d) { return sample_level(texture, d, sampler.min, s.value, t.value); };
-  if (result.magnified) {
-    result.color = sample_level(texture, 0, sampler.mag, s.value, t.value);
-  } else if (sampler.mip == MipMode::none) {
-    result.color = level(0);
-  } else if (sampler.mip == MipMode::nearest) {
-    // Equation 3.25.
-    const int d = result.lod <= 0.5L ? 0 : int(std::ceil(std::min(result.lod, 64.0L) + 0.5L)) - 1;
-    result.color = level(std::min(d, last));
-  } else {
-    // Equations 3.26 - 3.28.
-    const int d = std::min(int(std::floor(std::min(result.lod, 64.0L))), last);
-    const int next = std::min(d + 1, last);
-    result.color = d == last ? level(last) : mix(level(d), level(next), result.lod - d);
+  const long double switch_over = half ? 0.5L : 0.0L;
+  result.magnified = result.lod <= switch_over;
+  if (!std::isfinite(s.value) || !std::isfinite(t.value)) {
+    result.doubtful = true;  // a coordinate of nothing
+    return result;
   }
+  const bool alike =
+      sampler.mag == sampler.min && (sampler.mip != MipMode::nearest || texture.levels.size() == 1);
+  result.doubtful = !alike && is_near(result.lod, switch_over);
+  result.color = result.magnified ? sample_level(texture, 0, sampler.mag, s.value, t.value, &result.doubtful)
+                                  : minified(texture, s.value, t.value, result);
   return result;
 }
 

@@ -24,18 +24,21 @@ struct Level {
 struct Texture {
   std::vector<Level> levels;  // [0] the base level
   raster::Sampler sampler;
+  raster::BaseFormat base_format = raster::BaseFormat::rgba;
 };
 
 struct Lookup {
   Rgba color{};
   long double lod = 0;     // lambda of equation 3.18
   bool magnified = false;  // lambda <= c
+  bool doubtful = false;   // rounding may decide which texel, level or filter is taken
 };
 
 // The texture at (s, t), each with its derivatives by window x and y.
 Lookup sample(const Texture& texture, const Affine<long double>& s, const Affine<long double>& t);
 
-// One level by one filter.
-Rgba sample_level(const Texture& texture, int level, raster::Filter filter, long double s, long double t);
+// One level by one filter. *doubtful, if asked for, is set where rounding may decide which texel is taken.
+Rgba sample_level(const Texture& texture, int level, raster::Filter filter, long double s, long double t,
+                  bool* doubtful = nullptr);
 
 }  // namespace halfspace::oracle

@@ -14,9 +14,10 @@ struct ClipPoint {
 
 class Triangle {
  public:
-  // All w > 0. Window coordinates by spec 2.10.1. Coverage takes them snapped; depth, 1/w and attributes belong to the
-  // corners before snapping, unless a covered pixel could then lie too far outside: where half a sub-pixel changes a
-  // barycentric coordinate, or 1/w in parts of its least value, by more than a quarter, they belong to the snapped ones.
+  // All w > 0. Window coordinates by spec 2.10.1. Coverage takes them snapped; depth, 1/w and attributes
+  // belong to the corners before snapping, unless a covered pixel could then lie too far outside: where half
+  // a sub-pixel changes a barycentric coordinate, or 1/w in parts of its least value, by more than a quarter,
+  // they belong to the snapped ones.
   Triangle(const raster::Viewport& viewport, const std::array<ClipPoint, 3>& corners);
 
   const SnappedTriangle& corners() const { return corners_; }
