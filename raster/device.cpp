@@ -5,18 +5,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <deque>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include "raster/arena.h"
-#include "raster/fragment/program.h"
+#include "raster/batch.h"
 #include "raster/primitive/assembly.h"
 #include "raster/primitive/pixel_rect.h"
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/window_box.h"
-#include "raster/surface/accumulate.h"
 #include "raster/statistics.h"
+#include "raster/surface/accumulate.h"
 #include "raster/surface/clear.h"
 #include "raster/surface/resolve.h"
 #include "raster/thread_pool.h"
@@ -27,13 +26,11 @@
 namespace halfspace::raster {
 namespace {
 
-// Work kept back before it is executed, so that memory stays bounded whatever a frame draws.
-constexpr size_t kMaxPendingBytes = size_t{1} << 18;  // shaded vertices
-constexpr size_t kMaxPendingPrimitives = size_t{1} << 13;
-constexpr size_t kMaxPendingTextureBytes = size_t{128} << 20;  // of several textures; a single one may be larger
-constexpr uint32_t kPartPrimitives = 4096;   // a larger draw is taken in parts
-// With several threads all of these are larger: every execution is a meeting of all threads.
+constexpr uint32_t kPartPrimitives = 4096;  // a larger draw is taken in parts
+// With several threads draws are taken in larger parts, and more is kept back before it is executed: each
+// part and each execution is a meeting of threads.
 constexpr uint32_t kThreadedScale = 8;
+constexpr int kFewThreads = 4;
 constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
 constexpr uint32_t kVerticesPerTask = 2048;
 
@@ -45,7 +42,8 @@ int thread_count(const DeviceOptions& options) {
   char* end = nullptr;
   const long n = std::strtol(wish, &end, 10);
   if (*end == '\0' && n >= 1 && n <= 256) return static_cast<int>(n);
-  std::fprintf(stderr, "halfspace: HALFSPACE_THREADS=%s is not a number from 1 to 256; using %d\n", wish, cores);
+  std::fprintf(stderr, "halfspace: HALFSPACE_THREADS=%s is not a number from 1 to 256; using %d\n", wish,
+               cores);
   return cores;
 }
 
@@ -57,12 +55,6 @@ bool fuses(const DeviceOptions& options) {
 bool wants_statistics() {
   const char* wish = std::getenv("HALFSPACE_STATS");
   return wish != nullptr && *wish != '\0' && std::strcmp(wish, "0") != 0;
-}
-
-bool same_layout(const VertexLayout& a, const VertexLayout& b) {
-  return a.attribute_count == b.attribute_count && a.color == b.color && a.tex_coord == b.tex_coord &&
-         a.projective == b.projective && a.fog == b.fog && a.back_color == b.back_color && a.coverage == b.coverage &&
-         a.constant_color == b.constant_color && a.given_color == b.given_color && a.given_depth == b.given_depth;
 }
 
 Rect draw_window(const DrawState& state, const Framebuffer::Impl& fb) {
@@ -88,26 +80,18 @@ struct Device::Impl {
   ThreadPool pool;
   const bool prints, meters;  // statistics of stages
   const bool fuse;
-  StageMeter meter;             // since creation
+  StageMeter meter;                        // since creation
   DeviceStatistics statistics_at_picture;  // what had been counted when the last picture was shown
   Framebuffer::Impl* target = nullptr;
   DeviceStatistics statistics;
 
-  // The pass so far. Segments, and what they hold, are reused from pass to pass.
-  std::vector<std::unique_ptr<Segment>> segments;
-  std::vector<Segment*> pending;
-  uint8_t pending_targets = 0;  // colour planes drawn to since the pass began or was last executed
-  bool pending_stencil = false;  // and whether the stencil plane may have been written
-  bool last_is_open = false;  // the last pending segment takes further small draws
-  std::deque<DrawRecord> draws;
-  std::deque<PixelImage> images;
-  std::deque<PipelineProgram> programs;
-  std::shared_ptr<const DrawState> program_state;
-  VertexLayout program_layout;
-  // Textures that pending draws hold on to, by level 0; the program that replaced or deleted one cannot free it.
-  std::vector<const TextureLevel*> textures;
-  size_t texture_bytes = 0;
-  Arena arena;
+  // Draws are put into one batch. Meanwhile the tiles of the other, if that is not null, are drawn by the
+  // pool.
+  Batch batches[2];
+  Batch* filling = &batches[0];
+  Batch* rendering = nullptr;
+  std::vector<TileStatistics> counts;  // of each worker, for the batch that is drawn
+  std::vector<StageMeter> worker_meters;
   std::vector<uint16_t> outcodes;
   std::vector<ClipVertex> clip;
   std::vector<uint32_t> part_indices;
@@ -115,66 +99,47 @@ struct Device::Impl {
   std::vector<uint8_t> clip_codes;
   uint32_t stipple = 0;  // where the stipple of the last line strip stands
 
-  Segment& new_segment();
-  Segment& open_segment();
-  const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout);
-  void note_texture(const TextureView& view);
+  const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state,
+                                     const VertexLayout& layout) {
+    return filling->program_for(state, layout, target->format, fuse);
+  }
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
   uint32_t scale() const { return pool.size() > 1 ? kThreadedScale : 1; }
+  // Whether a draw's vertices and primitives should be split over threads. Few threads had better stay with
+  // the tiles that wait for them: what one of them shades has to come over to another's cache to be
+  // assembled.
+  bool splits() const { return pool.size() > kFewThreads || (pool.size() > 1 && !pool.is_busy()); }
+  template <class Task>
+  void run_split(uint32_t count, const Task& task);
   void count_vertices(const DrawState& state, uint32_t count, Clock::duration time);
   void report_stages(const LinearImage* image);
   void find_clip_distances(const VertexBatch& batch, DrawRecord& record);
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void need_planes(const DrawState& state, const PipelineProgram& program);
+  void note_targets(const DrawState& state, const PipelineProgram& program);
   void draw(const DrawPacket& packet);
   void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape);
   void draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape);
   void execute_if_full();
   void draw_pixels(const PixelPacket& packet);
   bool prepare_pixels(const PixelPacket& packet, const PipelineProgram& program);
+  void hand_over(const LinearImage* image, ColorPlane plane);
+  void settle();
   void execute(const LinearImage* image, ColorPlane plane = kBackPlane);
-  void discard();
-  bool covers_pending(const ClearCommand& command) const;
+  void discard(Batch& batch);
 };
 
-Segment& Device::Impl::new_segment() {
-  if (pending.size() == segments.size()) segments.push_back(std::make_unique<Segment>());
-  Segment& segment = *segments[pending.size()];
-  segment.reset(target->tiles_x, target->tiles_y);
-  pending.push_back(&segment);
-  last_is_open = false;
-  return segment;
-}
-
-Segment& Device::Impl::open_segment() {
-  if (!pending.empty() && last_is_open) return *pending.back();
-  Segment& segment = new_segment();
-  last_is_open = true;
-  return segment;
-}
-
-void Device::Impl::note_texture(const TextureView& view) {
-  const TextureLevel* base = view.levels[0].get();
-  if (std::find(textures.begin(), textures.end(), base) != textures.end()) return;
-  textures.push_back(base);
-  texture_bytes += view.bytes();
-}
-
-const PipelineProgram& Device::Impl::program_for(const std::shared_ptr<const DrawState>& state,
-                                                 const VertexLayout& layout) {
-  if (programs.empty() || program_state != state || !same_layout(program_layout, layout)) {
-    programs.push_back(build_program(*state, layout, target->format, fuse));
-    program_state = state;
-    program_layout = layout;
-    if (state->texture.view != nullptr) note_texture(*state->texture.view);
-  }
-  return programs.back();
+// task(i) for every i in [0, count).
+template <class Task>
+void Device::Impl::run_split(uint32_t count, const Task& task) {
+  if (splits()) return pool.run(count, [&](uint32_t i, int) { task(i); });
+  for (uint32_t i = 0; i < count; ++i) task(i);
 }
 
 void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
   const VertexBatch& batch = packet.batch;
   vertices.count = batch.count;
-  vertices.records = arena.allocate(batch.count * vertices.layout.stride());
+  vertices.records = filling->arena.allocate(batch.count * vertices.layout.stride());
   vertices.outcodes.swap(outcodes);
   vertices.clip.swap(clip);
   if (vertices.outcodes.size() < batch.count) {
@@ -183,10 +148,10 @@ void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
   }
   const uint32_t tasks = (batch.count + kVerticesPerTask - 1) / kVerticesPerTask;
   const auto start = meters ? Clock::now() : Clock::time_point();
-  pool.run(tasks, [&](uint32_t task, int) {
+  run_split(tasks, [&](uint32_t task) {
     const uint32_t first = task * kVerticesPerTask;
-    shade_vertices(*packet.state, batch, packet.materials, first, std::min(kVerticesPerTask, batch.count - first),
-                   vertices);
+    shade_vertices(*packet.state, batch, packet.materials, first,
+                   std::min(kVerticesPerTask, batch.count - first), vertices);
   });
   if (meters) count_vertices(*packet.state, batch.count, Clock::now() - start);
 }
@@ -202,7 +167,8 @@ void Device::Impl::report_stages(const LinearImage* image) {
   statistics.stages.clear();
   for (int id = 0; !stage_name(id).empty(); ++id) {
     const auto at = static_cast<size_t>(id);
-    if (meter.fragments[at] != 0) statistics.stages.push_back({stage_name(id), meter.fragments[at], meter.nanoseconds[at]});
+    if (meter.fragments[at] != 0)
+      statistics.stages.push_back({stage_name(id), meter.fragments[at], meter.nanoseconds[at]});
   }
   if (!prints || image == nullptr || statistics.draws == statistics_at_picture.draws) return;
   print_statistics(statistics_at_picture, statistics);
@@ -220,38 +186,42 @@ void Device::Impl::find_clip_distances(const VertexBatch& batch, DrawRecord& rec
 
 void Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives) {
   // The stipple of a line starts where the one before it ended.
-  if (pool.size() == 1 || primitives < kParallelPrimitives || record.shape.stippled_lines) {
-    Segment& segment = open_segment();
+  if (!splits() || primitives < kParallelPrimitives || record.shape.stippled_lines) {
+    Segment& segment = filling->open_segment(*target);
     assemble(record, packet.primitive, packet.indices, packet.index_count, 0, primitives, segment);
     stipple = segment.stipple_end;
     return;
   }
   const auto parts = static_cast<uint32_t>(pool.size());
-  const size_t first_segment = pending.size();
-  for (uint32_t i = 0; i < parts; ++i) new_segment();
+  const size_t first_segment = filling->segments().size();
+  for (uint32_t i = 0; i < parts; ++i) filling->new_segment(*target);
   const uint32_t each = (primitives + parts - 1) / parts;
   pool.run(parts, [&](uint32_t part, int) {
     const uint32_t first = std::min(part * each, primitives);
     assemble(record, packet.primitive, packet.indices, packet.index_count, first,
-             std::min(each, primitives - first), *pending[first_segment + part]);
+             std::min(each, primitives - first), *filling->segments()[first_segment + part]);
   });
 }
 
-// Asks the framebuffer for the planes that a draw works on.
+// Asks the framebuffer for the planes that a draw works on. The tiles' workers must not see one come to be.
 void Device::Impl::need_planes(const DrawState& state, const PipelineProgram& program) {
-  if (program.writes_color) {
-    target->need_color(state.color_targets);
-    pending_targets |= state.color_targets;
-  }
-  if (program.reads_depth) target->need_depth();
-  if (program.reads_stencil) {
-    target->need_stencil();
-    pending_stencil = true;
-  }
+  const bool color = program.writes_color && !target->has_color(state.color_targets);
+  const bool depth = program.reads_depth && !target->has_depth();
+  const bool stencil = program.reads_stencil && !target->has_stencil();
+  if (color || depth || stencil) settle();
+  if (color) target->need_color(state.color_targets);
+  if (depth) target->need_depth();
+  if (stencil) target->need_stencil();
+}
+
+void Device::Impl::note_targets(const DrawState& state, const PipelineProgram& program) {
+  filling->add_targets(program.writes_color ? state.color_targets : uint8_t{0}, program.reads_stencil);
 }
 
 void Device::Impl::draw(const DrawPacket& packet) {
-  if (target == nullptr || packet.batch.count == 0 || primitive_count(packet.primitive, packet.index_count) == 0) return;
+  if (target == nullptr || packet.batch.count == 0 ||
+      primitive_count(packet.primitive, packet.index_count) == 0)
+    return;
   const DrawState& state = *packet.state;
   // Once for the whole draw: how it is cut into parts must not show.
   VertexLayout layout = choose_layout(state, packet.batch);
@@ -266,8 +236,10 @@ void Device::Impl::draw(const DrawPacket& packet) {
   draw_in_parts(packet, layout, shape);
 }
 
-// Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending stays small.
-void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape) {
+// Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending
+// stays small.
+void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout,
+                                 const ShapePlan& shape) {
   const uint32_t each = separate_vertices(packet.primitive);
   const uint32_t step = each * kPartPrimitives * scale();
   if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape);
@@ -292,11 +264,12 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
 }
 
 void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape) {
-  DrawRecord& record = draws.emplace_back();
+  DrawRecord& record = filling->draws.emplace_back();
   record.state = packet.state;
   record.bounds = draw_bounds(*packet.state, *target);
   record.window = draw_window(*packet.state, *target);
   record.program = &program_for(packet.state, layout);  // executing a full pass drops it
+  note_targets(*packet.state, *record.program);
   record.shape = shape;
   record.edge_flags = packet.batch.edge_flag;
   record.stipple_start = packet.continues ? stipple : 0;
@@ -312,23 +285,21 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
 }
 
 void Device::Impl::execute_if_full() {
-  size_t pending_primitives = 0;
-  for (const Segment* segment : pending) pending_primitives += segment->primitives.size();
-  const bool many_texels = textures.size() > 1 && texture_bytes > kMaxPendingTextureBytes;
-  if (arena.bytes_in_use() > kMaxPendingBytes * scale() || many_texels || pending_primitives > kMaxPendingPrimitives * scale())
-    execute(nullptr);
+  if (filling->is_full(scale())) hand_over(nullptr, kBackPlane);
 }
 
 // Asks the framebuffer for what the packet draws on; false if it draws nothing.
 bool Device::Impl::prepare_pixels(const PixelPacket& packet, const PipelineProgram& program) {
   if (packet.kind == PixelKind::stencil) {
     if (packet.stencil_mask == 0) return false;
+    if (!target->has_stencil()) settle();
     target->need_stencil();
-    pending_stencil = true;
+    filling->add_targets(0, true);
     return true;
   }
   if (program.draws_nothing) return false;
   need_planes(*packet.state, program);
+  note_targets(*packet.state, program);
   return true;
 }
 
@@ -340,76 +311,70 @@ void Device::Impl::draw_pixels(const PixelPacket& packet) {
   if (!prepare_pixels(packet, program)) return;
   const Rect limit = draw_window(*packet.state, *target);
   const bool keep = is_small(packet);
-  PixelImage& image = images.emplace_back();
-  if (!lay_out_pixels(packet, layout, limit, keep, arena, image)) return;
+  PixelImage& image = filling->images.emplace_back();
+  if (!lay_out_pixels(packet, layout, limit, keep, filling->arena, image)) return;
   ++statistics.draws;
-  DrawRecord& record = draws.emplace_back();
+  DrawRecord& record = filling->draws.emplace_back();
   record.state = packet.state;
   record.bounds = image.bounds;
   record.program = &program;
   record.vertices.layout = layout;
   record.image = &image;
-  Segment& segment = open_segment();
+  Segment& segment = filling->open_segment(*target);
   segment.draws.push_back({static_cast<uint32_t>(segment.primitives.size()), &record});
   bin_box(segment, tile_box(image.bounds), static_cast<uint32_t>(segment.primitives.size()));
   segment.primitives.push_back({});
-  if (keep) execute_if_full();
-  else execute(nullptr);
+  if (keep)
+    execute_if_full();
+  else
+    execute(nullptr);
 }
 
-void Device::Impl::discard() {
-  for (const Segment* segment : pending) {
-    statistics.triangles += segment->triangles_in;
-    statistics.culled += segment->culled;
-    statistics.clipped += segment->clipped;
-  }
-  pending.clear();
-  pending_targets = 0;
-  pending_stencil = false;
-  last_is_open = false;
-  draws.clear();
-  images.clear();
-  programs.clear();
-  program_state.reset();
-  textures.clear();
-  texture_bytes = 0;
-  arena.reset();
+void Device::Impl::discard(Batch& batch) {
+  batch.count_into(statistics);
+  batch.discard();
 }
 
-// True if nothing of the pending work would be seen after the clear.
-bool Device::Impl::covers_pending(const ClearCommand& command) const {
-  return command.color && command.depth && (pending_targets & ~command.color_targets) == 0 &&
-         (command.stencil || !pending_stencil) && clears_everything(*target, command);
-}
-
-void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
-  if (target == nullptr) return;
-  std::vector<uint32_t> tiles;
-  if (image != nullptr) {
-    tiles.resize(target->tiles.size());
-    for (uint32_t i = 0; i < tiles.size(); ++i) tiles[i] = i;
-  } else {
-    for (const Segment* segment : pending) tiles.insert(tiles.end(), segment->touched.begin(), segment->touched.end());
-    std::sort(tiles.begin(), tiles.end());
-    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
-  }
-  if (!pending.empty()) ++statistics.passes;
-  std::vector<TileStatistics> counts(static_cast<size_t>(pool.size()));
-  std::vector<StageMeter> worker_meters(meters ? counts.size() : 0);
-  pool.run(static_cast<uint32_t>(tiles.size()), [&](uint32_t i, int worker) {
-    TileStatistics local;
-    if (meters) local.meter = &worker_meters[static_cast<size_t>(worker)];
-    if (!pending.empty()) run_tile(pending, *target, tiles[i], local);
-    if (image != nullptr) resolve_tile(*target, tiles[i], plane_index(plane), *image);
-    counts[static_cast<size_t>(worker)].fragments += local.fragments;
-    counts[static_cast<size_t>(worker)].double_fragments += local.double_fragments;
-  });
+// Waits for the batch that is drawn, and takes leave of it.
+void Device::Impl::settle() {
+  if (rendering == nullptr) return;
+  pool.wait();
   for (const TileStatistics& count : counts) {
     statistics.fragments += count.fragments;
     statistics.double_fragments += count.double_fragments;
   }
   for (const StageMeter& counted : worker_meters) meter.add(counted);
-  discard();
+  discard(*std::exchange(rendering, nullptr));
+}
+
+// Has the pool draw the batch that was filled, once it is done with the one before.
+void Device::Impl::hand_over(const LinearImage* image, ColorPlane plane) {
+  settle();
+  Batch& batch = *filling;
+  if (!batch.empty()) ++statistics.passes;
+  batch.deal_tiles(*target, image != nullptr, pool.size());
+  counts.assign(static_cast<size_t>(pool.size()), {});
+  worker_meters.assign(meters ? counts.size() : 0, {});
+  rendering = &batch;
+  if (pool.size() > 1) filling = &batches[filling == &batches[0] ? 1 : 0];
+  const LinearImage shown = image != nullptr ? *image : LinearImage();
+  const bool shows = image != nullptr;
+  pool.start(batch.ends, [this, &batch, shows, shown, plane](uint32_t i, int worker) {
+    const auto at = static_cast<size_t>(worker);
+    TileStatistics local;
+    if (meters) local.meter = &worker_meters[at];
+    if (!batch.empty()) run_tile(batch.segments(), *target, batch.tiles[i], local);
+    if (shows) resolve_tile(*target, batch.tiles[i], plane_index(plane), shown);
+    counts[at].fragments += local.fragments;
+    counts[at].double_fragments += local.double_fragments;
+  });
+  if (pool.size() == 1) settle();
+}
+
+void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
+  if (target == nullptr) return;
+  if (image != nullptr || !filling->empty()) hand_over(image, plane);
+  settle();
   if (meters) report_stages(image);
 }
 
@@ -425,8 +390,8 @@ void Device::begin_pass(Framebuffer* target) {
 
 void Device::clear(const ClearCommand& command) {
   if (impl_->target == nullptr) return;
-  if (impl_->covers_pending(command)) impl_->discard();
-  else impl_->execute(nullptr);
+  if (impl_->filling->is_covered_by(command, *impl_->target)) impl_->discard(*impl_->filling);
+  impl_->execute(nullptr);
   raster::clear(*impl_->target, command);
 }
 
@@ -469,23 +434,24 @@ void Device::read_color_float(const Rect& rect, float* out, ColorPlane plane) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
-  read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, float* to) {
-    read_row_float(fb, plane_index(plane), x0, x1, y, to);
-  });
+  read_rows(fb, rect, 4, out,
+            [&](int x0, int x1, int y, float* to) { read_row_float(fb, plane_index(plane), x0, x1, y, to); });
 }
 
 void Device::read_depth(const Rect& rect, uint32_t* out) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
-  read_rows(fb, rect, 1, out, [&](int x0, int x1, int y, uint32_t* to) { read_row_depth(fb, x0, x1, y, to); });
+  read_rows(fb, rect, 1, out,
+            [&](int x0, int x1, int y, uint32_t* to) { read_row_depth(fb, x0, x1, y, to); });
 }
 
 void Device::read_stencil(const Rect& rect, uint8_t* out) {
   if (impl_->target == nullptr) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
-  read_rows(fb, rect, 1, out, [&](int x0, int x1, int y, uint8_t* to) { read_row_stencil(fb, x0, x1, y, to); });
+  read_rows(fb, rect, 1, out,
+            [&](int x0, int x1, int y, uint8_t* to) { read_row_stencil(fb, x0, x1, y, to); });
 }
 
 void Device::accumulate(const AccumCommand& command) {

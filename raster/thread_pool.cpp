@@ -6,10 +6,113 @@
 #include <utility>
 
 namespace halfspace::raster {
+namespace {
 
-ThreadPool::ThreadPool(int threads) : size_(threads < 1 ? 1 : threads) {}
+// How often a thread looks before it sleeps or lets another run: some ten microseconds, the time to wake one.
+constexpr int kLooks = 1000;
+
+void relax() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+
+uint64_t packed(uint32_t begin, uint32_t end) { return uint64_t{end} << 32 | begin; }
+
+}  // namespace
+
+TaskLoop::TaskLoop(int workers)
+    : workers_(static_cast<size_t>(workers)), stretches_(std::make_unique<Stretch[]>(workers_)) {}
+
+void TaskLoop::open(std::span<const uint32_t> ends, const Task* task) {
+  uint32_t begin = 0;
+  for (size_t worker = 0; worker < workers_; ++worker) {
+    stretches_[worker].range.store(packed(begin, ends[worker]), std::memory_order_relaxed);
+    begin = ends[worker];
+  }
+  task_ = task;
+  open_.store(true);
+}
+
+bool TaskLoop::take_first(Stretch& stretch, uint32_t& task) {
+  uint64_t range = stretch.range.load(std::memory_order_relaxed);
+  for (;;) {
+    const auto begin = static_cast<uint32_t>(range), end = static_cast<uint32_t>(range >> 32);
+    if (begin == end) return false;
+    task = begin;
+    if (stretch.range.compare_exchange_weak(range, packed(begin + 1, end), std::memory_order_relaxed))
+      return true;
+  }
+}
+
+bool TaskLoop::take_last(Stretch& stretch, uint32_t& task) {
+  uint64_t range = stretch.range.load(std::memory_order_relaxed);
+  for (;;) {
+    const auto begin = static_cast<uint32_t>(range), end = static_cast<uint32_t>(range >> 32);
+    if (begin == end) return false;
+    task = end - 1;
+    if (stretch.range.compare_exchange_weak(range, packed(begin, end - 1), std::memory_order_relaxed))
+      return true;
+  }
+}
+
+bool TaskLoop::take(int worker, uint32_t& task) {
+  const auto own = static_cast<size_t>(worker);
+  if (take_first(stretches_[own], task)) return true;
+  for (size_t i = 1; i < workers_; ++i)
+    if (take_last(stretches_[(own + i) % workers_], task)) return true;
+  return false;
+}
+
+void TaskLoop::do_task(uint32_t task, int worker) {
+  try {
+    (*task_)(task, worker);
+  } catch (...) {
+    const std::lock_guard lock(error_mutex_);
+    if (!error_) error_ = std::current_exception();
+  }
+}
+
+// Whoever finds the loop open was counted before it looked, so that close() knows of it: of its own write and
+// the other's, one of the two sees the other.
+void TaskLoop::help(int worker, TaskLoop* first) {
+  inside_.fetch_add(1);
+  if (open_.load()) {
+    for (uint32_t task; take(worker, task);) {
+      if (first != nullptr && first->has_tasks()) first->help(worker);
+      do_task(task, worker);
+    }
+  }
+  inside_.fetch_sub(1);
+}
+
+bool TaskLoop::has_tasks() const {
+  if (!open_.load(std::memory_order_relaxed)) return false;
+  for (size_t worker = 0; worker < workers_; ++worker) {
+    const uint64_t range = stretches_[worker].range.load(std::memory_order_relaxed);
+    if (static_cast<uint32_t>(range) != static_cast<uint32_t>(range >> 32)) return true;
+  }
+  return false;
+}
+
+void TaskLoop::close() {
+  open_.store(false);
+  for (int looks = 0; inside_.load() != 0; ++looks) {
+    if (looks < kLooks)
+      relax();
+    else
+      std::this_thread::yield();
+  }
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+}
+
+ThreadPool::ThreadPool(int threads) : size_(threads < 1 ? 1 : threads), front_(size_), back_(size_) {}
 
 ThreadPool::~ThreadPool() {
+  try {
+    wait();
+  } catch (...) {  // nobody is left to hear of it
+  }
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -18,7 +121,7 @@ ThreadPool::~ThreadPool() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void ThreadPool::start() {
+void ThreadPool::start_threads() {
   // A program's signals are for its own threads.
   sigset_t all, before;
   sigfillset(&all);
@@ -28,49 +131,68 @@ void ThreadPool::start() {
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-void ThreadPool::work(int worker) {
-  try {
-    for (uint32_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) (*task_)(i, worker);
-  } catch (...) {
-    const std::lock_guard lock(mutex_);
-    if (!error_) error_ = std::current_exception();
-  }
-}
-
 void ThreadPool::serve(int worker) {
-  uint64_t seen = 0;
+  uint32_t seen = 0;
   for (;;) {
-    {
+    for (int looks = 0; looks < kLooks && loops_.load() == seen; ++looks) relax();
+    if (loops_.load() == seen) {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return stop_ || round_ != seen; });
-      if (stop_) return;
-      seen = round_;
+      ++sleepers_;
+      wake_.wait(lock, [&] { return stop_.load() || loops_.load() != seen; });
+      --sleepers_;
     }
-    work(worker);
-    const std::lock_guard lock(mutex_);
-    if (--busy_ == 0) done_.notify_one();
+    if (stop_.load()) return;
+    seen = loops_.load();
+    // What the caller waits for comes first, also when it begins in the middle of the other.
+    do {
+      front_.help(worker);
+      back_.help(worker, &front_);
+    } while (front_.has_tasks());
   }
 }
 
-void ThreadPool::run(uint32_t count, const std::function<void(uint32_t, int)>& task) {
+void ThreadPool::wake() {
+  if (threads_.empty()) start_threads();
+  loops_.fetch_add(1);
+  if (sleepers_.load() == 0) return;
+  { const std::lock_guard lock(mutex_); }  // who counted itself a sleeper but does not sleep yet holds it
+  wake_.notify_all();
+}
+
+void ThreadPool::run(uint32_t count, const Task& task) {
   if (size_ == 1 || count <= 1) {
     for (uint32_t i = 0; i < count; ++i) task(i, 0);
     return;
   }
-  if (threads_.empty()) start();
-  {
-    const std::lock_guard lock(mutex_);
-    task_ = &task;
-    count_ = count;
-    next_.store(0, std::memory_order_relaxed);
-    busy_ = static_cast<int>(threads_.size());
-    ++round_;
+  even_ends_.resize(static_cast<size_t>(size_));
+  for (int worker = 0; worker < size_; ++worker) {
+    const uint64_t parts = static_cast<uint64_t>(worker) + 1;
+    even_ends_[static_cast<size_t>(worker)] =
+        static_cast<uint32_t>(count * parts / static_cast<uint64_t>(size_));
   }
-  wake_.notify_all();
-  work(0);
-  std::unique_lock lock(mutex_);
-  done_.wait(lock, [&] { return busy_ == 0; });
-  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+  front_.open(even_ends_, &task);
+  wake();
+  front_.help(0);
+  front_.close();
+}
+
+void ThreadPool::start(std::span<const uint32_t> ends, Task task) {
+  wait();
+  back_task_ = std::move(task);
+  if (size_ == 1) {
+    for (uint32_t i = 0; i < ends[0]; ++i) back_task_(i, 0);
+    return;
+  }
+  back_.open(ends, &back_task_);
+  busy_ = true;
+  wake();
+}
+
+void ThreadPool::wait() {
+  if (!busy_) return;
+  busy_ = false;
+  back_.help(0);
+  back_.close();
 }
 
 }  // namespace halfspace::raster

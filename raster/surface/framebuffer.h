@@ -58,6 +58,11 @@ struct Framebuffer::Impl {
   uint8_t* stencil_tile(size_t tile) const { return stencil_.as<uint8_t>() + tile * kTilePixels; }
   // Four numbers a pixel, r g b a; 32767 is 1.0.
   int16_t* accum_tile(size_t tile) const { return accum_.as<int16_t>() + tile * kTilePixels * 4; }
+  bool has_color(uint8_t targets) const {
+    return ((targets & kBackPlane) == 0 || color_[0]) && ((targets & kFrontPlane) == 0 || color_[1]);
+  }
+  bool has_depth() const { return bool(depth_); }
+  bool has_stencil() const { return bool(stencil_); }
   // Storage comes to be at the first call. `targets`: bits of ColorPlane.
   void need_color(uint8_t targets);
   void need_depth();

@@ -57,7 +57,8 @@ TEST(Identity, StagesAloneAndFused) {
       const IsaScope scope(isa);
       Canvas canvas(kSize, kSize, 1, ColorFormat::rgba8, false);
       draw_scene(canvas, scene);
-      EXPECT_EQ(first_difference(fused, canvas.read()), "") << scene.name << " on " << isa << ", every stage alone";
+      EXPECT_EQ(first_difference(fused, canvas.read()), "")
+          << scene.name << " on " << isa << ", every stage alone";
     }
   }
 }
@@ -105,6 +106,30 @@ TEST(Identity, SplitDrawsChangeNothing) {
       }
     }
     EXPECT_EQ(first_difference(draw(scene, 1), draw(split, 3)), "") << scene.name;
+  }
+}
+
+// Tiles of one batch are drawn while the next is filled. All scenes over each other, often enough for several
+// batches, with depth, stencil and the other colour plane coming to be on the way.
+TEST(Identity, BatchesOverlap) {
+  const auto draw_often = [](int threads, uint64_t& passes) {
+    Canvas canvas(kSize, kSize, threads);
+    size_t vertices = 0;
+    while (vertices < 400000) {
+      for (const Scene& scene : all_scenes()) {
+        draw_scene(canvas, scene);
+        for (const SceneDraw& one : scene.draws) vertices += one.vertices.size();
+      }
+    }
+    Picture picture = canvas.read();
+    passes = canvas.device().statistics().passes;
+    return picture;
+  };
+  uint64_t passes = 0;
+  const Picture reference = draw_often(1, passes);
+  for (const int threads : {2, 3, 8}) {
+    EXPECT_EQ(first_difference(reference, draw_often(threads, passes)), "") << threads << " threads";
+    EXPECT_GT(passes, 4u) << threads << " threads: nothing overlapped";
   }
 }
 

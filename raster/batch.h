@@ -1,0 +1,64 @@
+// Draws that were taken up and binned, on their way to the tiles.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "raster/api/device.h"
+#include "raster/arena.h"
+#include "raster/fragment/program.h"
+#include "raster/primitive/pixel_rect.h"
+#include "raster/primitive/segment.h"
+
+namespace halfspace::raster {
+
+// With several threads a device has two: the tiles of one are drawn while the next is filled. What a batch
+// holds is kept for the draws to come.
+class Batch {
+ public:
+  // An empty segment at the end; one that takes further small draws; all of them, in order.
+  Segment& new_segment(const Framebuffer::Impl& target);
+  Segment& open_segment(const Framebuffer::Impl& target);
+  const std::vector<Segment*>& segments() const { return pending_; }
+  // What draws of this state and layout go through; remembers the last one.
+  const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state,
+                                     const VertexLayout& layout, ColorFormat format, bool fuse);
+  // Notes what a draw put into this batch may change.
+  void add_targets(uint8_t color_targets, bool stencil) {
+    targets_ |= color_targets;
+    stencil_ |= stencil;
+  }
+  // True if nothing of it would be seen after the clear.
+  bool is_covered_by(const ClearCommand& command, const Framebuffer::Impl& target) const;
+  bool empty() const { return pending_.empty(); }
+  // Enough to be executed: memory stays bounded whatever a frame draws. `scale`: of all limits.
+  bool is_full(uint32_t scale) const;
+  // Tiles with something to draw, or all of them, as tasks for `workers`: ends[w] ends the stretch of worker
+  // w, which is dealt the same tiles each time.
+  void deal_tiles(const Framebuffer::Impl& target, bool all, int workers);
+  void count_into(DeviceStatistics& statistics) const;
+  void discard();
+
+  std::deque<DrawRecord> draws;
+  std::deque<PixelImage> images;
+  Arena arena;
+  std::vector<uint32_t> tiles, ends;
+
+ private:
+  void note_texture(const TextureView& view);
+
+  std::vector<std::unique_ptr<Segment>> all_segments_;
+  std::vector<Segment*> pending_;
+  bool last_is_open_ = false;
+  uint8_t targets_ = 0;   // colour planes drawn to
+  bool stencil_ = false;  // whether the stencil plane may be written
+  std::deque<PipelineProgram> programs_;
+  std::shared_ptr<const DrawState> program_state_;
+  VertexLayout program_layout_;
+  // Textures that draws hold on to, by level 0; the program that replaced or deleted one cannot free it.
+  std::vector<const TextureLevel*> textures_;
+  size_t texture_bytes_ = 0;
+};
+
+}  // namespace halfspace::raster
