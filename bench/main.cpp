@@ -35,13 +35,6 @@ void pin_to(int core) {
     throw std::runtime_error("cannot run on core " + std::to_string(core));
 }
 
-Json list_of_workloads() {
-  Json list = Json::array();
-  for (const Workload& workload : all_workloads())
-    list.push_back({{"name", workload.name}, {"target", workload.target}, {"what", workload.what}});
-  return list;
-}
-
 int chosen_frames(const Options& options, const Times& one_frame) {
   if (options.frames > 0) return options.frames;
   constexpr double kBudgetMs = 500;

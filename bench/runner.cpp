@@ -10,6 +10,18 @@
 
 namespace halfspace::bench {
 
+using Json = nlohmann::json;
+
+Json list_of_workloads() {
+  Json list = Json::array();
+  for (const Workload& workload : all_workloads())
+    list.push_back({{"name", workload.name},
+                    {"target", workload.target},
+                    {"draft_target", workload.draft_target},
+                    {"what", workload.what}});
+  return list;
+}
+
 Run::Run(const Library& library, const Workload& workload, Screen screen)
     : screen_(screen), context_(library, screen), frame_(workload.prepare(screen)) {}
 
@@ -36,8 +48,6 @@ void Run::save_picture(const std::filesystem::path& path) const {
 
 namespace {
 
-using Json = nlohmann::json;
-
 std::string gl_string(GLenum name) { return reinterpret_cast<const char*>(gl.GetString(name)); }
 
 class Servant {
@@ -49,6 +59,7 @@ class Servant {
     std::string order, argument;
     words >> order;
     std::getline(words >> std::ws, argument);
+    if (order == "list") return {{"workloads", list_of_workloads()}};
     if (order == "open") return open(argument);
     if (order == "memory") return {{"peak_kib", peak_resident_kib()}};
     if (!run_) throw std::runtime_error(order + ": nothing is open");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,8 @@
 #include "bench/workload.h"
 
 namespace halfspace::bench {
+
+nlohmann::json list_of_workloads();
 
 // One workload in a context of its own.
 class Run {
@@ -29,6 +32,7 @@ class Run {
 
 // A program that compares libraries starts this one once for each and lets them take turns. A line of `in` is
 // an order, and is answered by a line of JSON; what failed, by {"error": "..."}. Until `in` ends.
+//   list           answers workloads
 //   open NAME      a fresh context, the workload prepared; answers renderer, version
 //   run COUNT      so many frames; answers cpu_ms and wall_ms, of all together
 //   picture PATH   the last frame, as PPM

@@ -4,13 +4,13 @@
 
 namespace halfspace::bench {
 
-#define WORKLOAD(name, target, what) Frame name(Screen screen);
+#define WORKLOAD(name, target, draft, what) Frame name(Screen screen);
 #include "bench/workloads.def"
 #undef WORKLOAD
 
 const std::vector<Workload>& all_workloads() {
   static const std::vector<Workload> workloads{
-#define WORKLOAD(name, target, what) {#name, target, what, name},
+#define WORKLOAD(name, target, draft, what) {#name, target, draft, what, name},
 #include "bench/workloads.def"
 #undef WORKLOAD
   };

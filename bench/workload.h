@@ -14,7 +14,8 @@ using Frame = std::function<void()>;
 
 struct Workload {
   const char* name;
-  double target;  // how many times as fast as llvmpipe at one thread it has to be
+  double target;        // how many times as fast as llvmpipe at one thread it has to be
+  double draft_target;  // the same at draft accuracy; 0: not asked
   const char* what;
   // Sets the state up in a fresh context that is current, makes the geometry, and returns what draws it.
   Frame (*prepare)(Screen);

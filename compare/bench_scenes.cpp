@@ -1,8 +1,9 @@
 #include "compare/bench_scenes.h"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
+
+#include "compare/processor.h"
 
 namespace halfspace::compare {
 namespace {
@@ -148,14 +149,6 @@ BenchRow thread_row(const BenchOptions& options, int scene, const Progress& prog
   row.ratio = row.ours.median > 0 ? row.theirs.median / row.ours.median : 0;
   row.good = row.ratio >= kThreadsTarget;
   return row;
-}
-
-std::string processor_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name") && line.find(": ") != std::string::npos)
-      return line.substr(line.find(": ") + 2);
-  return "unknown processor";
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ fs::path library_folder(const std::string& library, const std::optional<std::str
 
 fs::path house_program(const std::string& name) {
   const fs::path base = own_folder() / "..";
-  return first_with(name, {base / "ref_app", base / "libexec" / "halfspace", own_folder()},
+  return first_with(name, {base / "ref_app", base / "bench", base / "libexec" / "halfspace", own_folder()},
                     "build it with `cmake --build --preset release`") /
          name;
 }

@@ -23,8 +23,8 @@ std::filesystem::path own_folder();
 std::filesystem::path library_folder(const std::string& library,
                                      const std::optional<std::string>& stated = {});
 
-// A program of the house: in the build tree ref_app/NAME, once installed ../libexec/halfspace/NAME. Throws
-// NotFound.
+// A program of the house: in the build tree ref_app/NAME or bench/NAME, once installed
+// ../libexec/halfspace/NAME. Throws NotFound.
 std::filesystem::path house_program(const std::string& name);
 
 // LD_LIBRARY_PATH with `folder` before what it holds already.

@@ -10,7 +10,8 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
+
+#include "compare/prepared_command.h"
 
 namespace halfspace::compare {
 namespace {
@@ -41,63 +42,6 @@ class HandOnSignals {
   static constexpr std::array<int, 2> kSignals{SIGINT, SIGTERM};
   std::array<struct sigaction, 2> before_{};
 };
-
-bool overrides(const std::vector<EnvironmentVariable>& changes, const char* entry) {
-  for (const auto& [name, value] : changes)
-    if (std::strncmp(entry, name.c_str(), name.size()) == 0 && entry[name.size()] == '=') return true;
-  return false;
-}
-
-std::vector<std::string> merged_environment(const std::vector<EnvironmentVariable>& changes) {
-  std::vector<std::string> merged;
-  for (char** entry = environ; *entry != nullptr; ++entry)
-    if (!overrides(changes, *entry)) merged.emplace_back(*entry);
-  for (const auto& [name, value] : changes)
-    if (!value.empty()) merged.push_back(name + "=" + value);
-  return merged;
-}
-
-std::vector<char*> pointers(std::vector<std::string>& strings) {
-  std::vector<char*> list;
-  for (std::string& text : strings) list.push_back(text.data());
-  list.push_back(nullptr);
-  return list;
-}
-
-// All that exec needs, made before the fork: between fork and exec nothing may allocate.
-struct Prepared {
-  explicit Prepared(const ChildCommand& command)
-      : arguments(command.arguments),
-        environment(merged_environment(command.environment)),
-        argument_list(pointers(arguments)),
-        environment_list(pointers(environment)),
-        output(command.output.string()),
-        pinned(!command.cores.empty()) {
-    CPU_ZERO(&cores);
-    for (int core : command.cores) CPU_SET(static_cast<unsigned>(core), &cores);
-  }
-
-  // Returns the errno when it fails.
-  int exec() const {
-    if (pinned && sched_setaffinity(0, sizeof cores, &cores) != 0) return errno;
-    if (!output.empty()) {
-      const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-      if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) return errno;
-    }
-    execvpe(argument_list[0], argument_list.data(), environment_list.data());
-    return errno;
-  }
-
-  std::vector<std::string> arguments, environment;
-  std::vector<char*> argument_list, environment_list;
-  std::string output;
-  bool pinned;
-  cpu_set_t cores{};
-};
-
-StartError start_error(const ChildCommand& command, int number) {
-  return {command.arguments.front() + ": cannot be started: " + std::strerror(number), number};
-}
 
 // The child writes its errno here when exec fails; a successful exec closes it.
 class ErrorPipe {
@@ -140,7 +84,7 @@ int wait_for(pid_t child) {
 }  // namespace
 
 ChildResult run_child(const ChildCommand& command) {
-  const Prepared prepared(command);
+  const PreparedCommand prepared(command);
   ErrorPipe error_pipe;
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = fork();
@@ -163,7 +107,7 @@ ChildResult run_child(const ChildCommand& command) {
 }
 
 void become(const ChildCommand& command) {
-  const Prepared prepared(command);
+  const PreparedCommand prepared(command);
   throw start_error(command, prepared.exec());
 }
 

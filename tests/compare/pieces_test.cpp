@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "compare/bar_chart.h"
+#include "compare/dialogue.h"
 #include "compare/html.h"
 #include "compare/process.h"
 #include "compare/statistics.h"
@@ -31,6 +32,28 @@ TEST(Statistics, SpreadIsOfTheMiddleHalf) {
   EXPECT_DOUBLE_EQ(s.lowest, 90);
   EXPECT_DOUBLE_EQ(s.highest, 1000);
   EXPECT_DOUBLE_EQ(s.spread, 0.05);  // quartiles 100 and 110; the one wild run does not count
+}
+
+ChildCommand shell(const std::string& script) {
+  ChildCommand command;
+  command.arguments = {"sh", "-c", script};
+  return command;
+}
+
+TEST(Dialogue, AnswersInTurnHoweverTheBytesArrive) {
+  Dialogue dialogue(
+      shell("while read -r line; do printf 'you '; sleep 0.01; printf 'said %s\\n' \"$line\"; done"));
+  EXPECT_EQ(dialogue.ask("one"), "you said one");
+  EXPECT_EQ(dialogue.ask("two words"), "you said two words");
+}
+
+TEST(Dialogue, AChildThatEndsOrIsNotThereIsAnError) {
+  Dialogue ends(shell("read -r line; echo last"));
+  EXPECT_EQ(ends.ask("one"), "last");
+  EXPECT_THROW(ends.ask("two"), std::runtime_error);
+  ChildCommand missing;
+  missing.arguments = {"there-is-no-such-program"};
+  EXPECT_THROW(Dialogue(missing).ask("anyone?"), std::runtime_error);
 }
 
 std::string base64_of(std::string_view text) {

@@ -78,6 +78,31 @@ class Scenes(unittest.TestCase):
         self.assertGreater(memory["theirs"]["median"], memory["ours"]["median"])
         self.assertTrue((self.out / "scenes.svg").read_text().startswith("<svg "))
 
+    def test_workloads(self):
+        done = run("bench", "--only", "clear,tri_1000px,startup", "--rounds", 2, "--no-threads", "--out", self.out)
+        self.assertIn(done.returncode, (0, 1), done.stdout + done.stderr)
+        result = json.loads((self.out / "workloads.json").read_text())
+        self.assertTrue(result["ours"]["renderer"].startswith("Halfspace"))
+        self.assertIn("llvmpipe", result["theirs"]["renderer"])
+        self.assertEqual([row["name"] for row in result["workloads"]], ["clear", "tri_1000px", "startup"])
+        for row in result["workloads"]:
+            ours, theirs = row["ours"]["cpu_ms"], row["theirs"]["cpu_ms"]
+            self.assertEqual((ours["count"], theirs["count"]), (2, 2))
+            self.assertAlmostEqual(row["ratio"], theirs["median"] / ours["median"])
+            self.assertTrue(row["same_picture"], row)
+            self.assertEqual(row["good"], row["ratio"] >= row["target"])
+        self.assertTrue((self.out / "ours" / "startup.png").exists())
+
+    def test_two_builds(self):
+        """A build against itself: the same pictures to the bit. A folder without a library is an error."""
+        library = pathlib.Path(HALFSPACE).parent.parent
+        done = run("bench", "--only", "tri_1000px", "--rounds", 2, "--against", library, "--slower", 300, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        row = json.loads((self.out / "against.json").read_text())["workloads"][0]
+        self.assertEqual(row["picture"]["differing"], 0)
+        self.assertEqual(run("bench", "--against", self.out, "--out", self.out).returncode, 2)
+        self.assertEqual(run("bench", "--only", "no_such", "--out", self.out).returncode, 2)
+
 
 if __name__ == "__main__":
     HALFSPACE = sys.argv.pop(1)
