@@ -19,48 +19,71 @@ HWY_INLINE VF Log2(VF x) {
   return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(p, r));
 }
 
+// With S and Q planes, d(S/Q)/dx = (dS/dx * Q - S * dQ/dx) / Q^2, and the numerator does not depend on x: it is the same
+// for all pixels of a row, and that of d/dy for all of a column. So rho^2 = max(row's, column's) / Q^4. In double since
+// the differences may cancel.
 template <bool kProjective>
 struct Lambda {
   static constexpr bool kKills = false, kPacks = false;
-  // d(S/Q)/dx = (dS/dx - s * dQ/dx) / Q, in texels of level 0; in double since the difference may cancel.
+
   template <class L>
   struct Once {
-    BlockPlaneDouble divisor, s, t;
-    HWY_INLINE explicit Once(const BlockContext& c)
-        : divisor(c, kProjective ? c.params->tex_plane + 2 : 1),
-          s(c, c.params->tex_plane),
-          t(c, c.params->tex_plane + 1) {}
-  };
-  template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
-    const DF d;
-    const SetupBatch& setup = *c.setup;
-    const int k = c.lane;
-    const int first = c.params->tex_plane;
-    const int divisor = kProjective ? first + 2 : 1;
-    const bool affine = !kProjective && (setup.variant[k] & kAffine) != 0;
-    const VD q = once.divisor.At(i);
-    VD x2, y2;  // squared lengths of the gradients along x and y
-    for (int p = 0; p < kDoubleParts; ++p) x2.part[p] = y2.part[p] = hn::Zero(DD());
-    for (int axis = 0; axis < 2; ++axis) {
-      const VD numerator = axis == 0 ? once.s.At(i) : once.t.At(i);
-      const auto size = hn::Set(DD(), c.params->lod_scale[axis]);
-      for (int p = 0; p < kDoubleParts; ++p) {
-        auto gx = hn::Set(DD(), setup.dfdx[first + axis][k]);
-        auto gy = hn::Set(DD(), setup.dfdy[first + axis][k]);
-        if (!affine) {
-          const auto s = hn::Div(numerator.part[p], q.part[p]);
-          gx = hn::Div(hn::Sub(gx, hn::Mul(s, hn::Set(DD(), setup.dfdx[divisor][k]))), q.part[p]);
-          gy = hn::Div(hn::Sub(gy, hn::Mul(s, hn::Set(DD(), setup.dfdy[divisor][k]))), q.part[p]);
-        }
-        gx = hn::Mul(gx, size);
-        gy = hn::Mul(gy, size);
-        x2.part[p] = hn::Add(x2.part[p], hn::Mul(gx, gx));
-        y2.part[p] = hn::Add(y2.part[p], hn::Mul(gy, gy));
+    BlockPlaneDouble divisor;
+    bool constant;                                                  // the divisor is
+    alignas(64) double along_x[kBlockSize], along_y[kBlockSize];  // of each row, of each column: texels squared * Q^4
+    VF lambda;                                                      // where the divisor is constant
+    HWY_INLINE explicit Once(const BlockContext& c) : divisor(c, kProjective ? c.params->tex_plane + 2 : 1) {
+      constant = !kProjective && (c.setup->variant[c.lane] & kAffine) != 0;
+      for (int n = 0; n < kBlockSize; ++n) along_x[n] = along_y[n] = 0;
+      lambda = hn::Zero(DF());
+      for (int axis = 0; axis < 2; ++axis) AddAxis(c, axis);
+      const double longer = along_x[0] > along_y[0] ? along_x[0] : along_y[0];
+      if (constant) lambda = HalfLog2(hn::Set(DF(), static_cast<float>(longer)));
+    }
+
+   private:
+    HWY_INLINE void AddAxis(const BlockContext& c, int axis) {
+      const SetupBatch& setup = *c.setup;
+      const int k = c.lane, plane = c.params->tex_plane + axis;
+      const double size = c.params->lod_scale[axis];
+      const double s = setup.f0[plane][k], sx = setup.dfdx[plane][k], sy = setup.dfdy[plane][k];
+      // q, qx, qy of a constant divisor.
+      double q = 1, qx = 0, qy = 0;
+      if (!constant) {
+        const int d = kProjective ? c.params->tex_plane + 2 : 1;
+        q = setup.f0[d][k], qx = setup.dfdx[d][k], qy = setup.dfdy[d][k];
+      }
+      const double twist = sx * qy - qx * sy;
+      for (int n = 0; n < kBlockSize; ++n) {
+        const double gx = (sx * q - qx * s + twist * (c.dy + n)) * size;
+        const double gy = (sy * q - qy * s - twist * (c.dx + n)) * size;
+        along_x[n] += gx * gx;
+        along_y[n] += gy * gy;
       }
     }
-    for (int p = 0; p < kDoubleParts; ++p) x2.part[p] = hn::Max(x2.part[p], y2.part[p]);
-    const VF rho2 = hn::Min(hn::Max(DemoteGroup(d, x2), hn::Set(d, 1e-30f)), hn::Set(d, 1e30f));
-    v.slot[kLambda] = hn::Mul(hn::Set(d, 0.5f), Log2(rho2));
+  };
+
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
+    if (once.constant) {
+      v.slot[kLambda] = once.lambda;
+      return;
+    }
+    constexpr int kParts = BlockPlaneDouble::kParts;
+    VD rho2 = once.divisor.At(i);
+    for (int p = 0; p < kDoubleParts; ++p) {
+      const auto row = hn::Set(DD(), once.along_x[i / kBlockSize + p / kParts]);
+      const auto columns = hn::Load(DD(), once.along_y + i % kBlockSize + p % kParts * kDoubleLanes);
+      const auto q2 = hn::Mul(rho2.part[p], rho2.part[p]);
+      rho2.part[p] = hn::Div(hn::Max(row, columns), hn::Mul(q2, q2));
+    }
+    v.slot[kLambda] = HalfLog2(DemoteGroup(DF(), rho2));
+  }
+
+ private:
+  static HWY_INLINE VF HalfLog2(VF rho2) {
+    const DF d;
+    rho2 = hn::Min(hn::Max(rho2, hn::Set(d, 1e-30f)), hn::Set(d, 1e30f));
+    return hn::Mul(hn::Set(d, 0.5f), Log2(rho2));
   }
 };
