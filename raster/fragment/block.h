@@ -51,8 +51,9 @@ struct FragmentParams {
 };
 
 // Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded; kOffset holds int32;
-// kW is clip-space w.
-enum Slot { kR, kG, kB, kA, kS, kT, kOffset, kW, kTexR, kTexG, kTexB, kTexA, kLambda, kSlotCount };
+// kW is clip-space w. kMipKey is the mip level, or -1 for the magnification filter where that is another one; kMipBlend
+// the share of the level after.
+enum Slot { kR, kG, kB, kA, kS, kT, kOffset, kW, kTexR, kTexG, kTexB, kTexA, kLambda, kMipKey, kMipBlend, kSlotCount };
 
 // Fragments of small triangles waiting to be shaded together. Filled by raster/tile/packing.inl.
 struct alignas(64) PixelQueue {

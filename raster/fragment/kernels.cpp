@@ -30,7 +30,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/stencil.inl"
 #include "raster/fragment/stages/write.inl"
 
-enum SlotGroup : unsigned { kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32 };
+enum SlotGroup : unsigned { kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32, kMip = 64 };
 
 template <unsigned kGroups, unsigned kGroup, int kFirst, int kCount>
 HWY_INLINE void LoadGroup(const BlockContext& c, int i, Lanes& v) {
@@ -45,6 +45,7 @@ HWY_INLINE void LoadSlots(const BlockContext& c, int i, Lanes& v) {
   LoadGroup<kGroups, kEyeDepth, kW, 1>(c, i, v);
   LoadGroup<kGroups, kTexel, kTexR, 4>(c, i, v);
   LoadGroup<kGroups, kLevel, kLambda, 1>(c, i, v);
+  LoadGroup<kGroups, kMip, kMipKey, 2>(c, i, v);
 }
 
 template <unsigned kGroups, unsigned kGroup, int kFirst, int kCount>
@@ -60,6 +61,7 @@ HWY_INLINE void StoreSlots(const Lanes& v, int i, BlockContext& c) {
   StoreGroup<kGroups, kEyeDepth, kW, 1>(v, i, c);
   StoreGroup<kGroups, kTexel, kTexR, 4>(v, i, c);
   StoreGroup<kGroups, kLevel, kLambda, 1>(v, i, c);
+  StoreGroup<kGroups, kMip, kMipKey, 2>(v, i, c);
 }
 
 template <StageId id>
@@ -78,6 +80,14 @@ struct BodyOf;
   };
 #include "raster/fragment/stages.def"
 #undef STAGE
+
+// Stages that read slots where they lie, too: only as the first of a run, or else the slots hold something else.
+template <class Body>
+concept TakesFromMemory = requires { Body::kTakesFromMemory; };
+template <StageId first, StageId... others>
+constexpr bool MemoryIsFilled() {
+  return (!TakesFromMemory<typename BodyOf<others>::Type> && ...);
+}
 
 // What each stage of a run works out once a block.
 template <class L, StageId id>
@@ -119,6 +129,7 @@ constexpr unsigned LeftSlots() {
 template <class L, StageId... ids>
 void RunStages(BlockContext& c) {
   constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  static_assert(MemoryIsFilled<ids...>());
   const OnceAll<L, ids...> once(c);
   uint64_t live = L::Live(c), left = 0;  // locals: through memory, each row would wait for the one before
   for (int i = 0; i < kBlockPixels; i += kLanes) {

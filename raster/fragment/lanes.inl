@@ -1,7 +1,7 @@
 // Vectors and the group of lanes a stage works on. Compiled once per ISA level, inside its namespace.
 //
-// A group is kLanes neighbouring pixels of the block: two rows of 8, one, or a part of one on narrower machines. A value
-// at a pixel never depends on which.
+// A group is kLanes neighbouring pixels of the block: two rows of 8, one, or a part of one on narrower
+// machines. A value at a pixel never depends on which.
 
 inline constexpr int kMaxLanes = 16;
 using DF = hn::CappedTag<float, kMaxLanes>;
@@ -34,8 +34,8 @@ HWY_INLINE hn::Vec<To> DemoteGroup(To d, const VD& v) {
   }
 }
 
-// Towards zero, for values an int32 can hold; anything else gives some int32. Highway's ConvertTo saturates, which takes
-// four instructions more.
+// Towards zero, for values an int32 can hold; anything else gives some int32. Highway's ConvertTo saturates,
+// which takes four instructions more.
 HWY_INLINE VI TruncateInRange(VF v) {
 #if HWY_TARGET == HWY_AVX3
   return VI{_mm512_cvttps_epi32(v.raw)};
@@ -97,46 +97,54 @@ HWY_INLINE auto Compare(V a, V b) {
   if constexpr (F == CompareFunc::never) return hn::Ne(a, a);
 }
 
-// --- Planes at the pixels of a block: (f0 + dfdy * dy) + dfdx * dx, always in this order. What is the same for all rows
-// is worked out once a block; the compiler could not tell, since rows write to memory.
+// --- Planes at the pixels of a block: (f0 + dfdy * dy) + dfdx * dx, always in this order. What is the same
+// for all rows is worked out once a block; the compiler could not tell, since rows write to memory.
 
 inline constexpr int kGroupsPerRow = kLanes < kBlockSize ? kBlockSize / kLanes : 1;
 inline constexpr int kRowsPerGroup = kLanes > kBlockSize ? kLanes / kBlockSize : 1;
 
+// A group's rows, each filled with its own value: `rows` counts from the group's first.
+HWY_INLINE VF FillRows(const float* rows) {
+#if HWY_TARGET == HWY_AVX3
+  const __m512 first = _mm512_castps256_ps512(_mm256_broadcast_ss(rows));
+  return VF{_mm512_castpd_ps(
+      _mm512_insertf64x4(_mm512_castps_pd(first), _mm256_castps_pd(_mm256_broadcast_ss(rows + 1)), 1))};
+#else
+  static_assert(kRowsPerGroup == 1);
+  return hn::Set(DF(), rows[0]);
+#endif
+}
+
 struct BlockPlane {
-  VF across[kGroupsPerRow];  // dfdx * dx
-  float f0, dfdy, dy;
+  VF across[kGroupsPerRow];           // dfdx * dx
+  alignas(32) float row[kBlockSize];  // f0 + dfdy * dy
   HWY_INLINE BlockPlane(const BlockContext& c, int plane) {
     const SetupBatch& s = *c.setup;
     const DF d;
-    f0 = s.f0_f[plane][c.lane];
-    dfdy = s.dfdy_f[plane][c.lane];
-    dy = static_cast<float>(c.dy);
     const VF dfdx = hn::Set(d, s.dfdx_f[plane][c.lane]);
     for (int g = 0; g < kGroupsPerRow; ++g)
-      across[g] = hn::Mul(dfdx, hn::Add(Column(), hn::Set(d, static_cast<float>(c.dx) + static_cast<float>(g * kLanes))));
+      across[g] = hn::Mul(
+          dfdx, hn::Add(Column(), hn::Set(d, static_cast<float>(c.dx) + static_cast<float>(g * kLanes))));
+    const hn::CappedTag<float, kBlockSize> dr;
+    const int step = static_cast<int>(hn::MaxLanes(dr));
+    const auto f0 = hn::Set(dr, s.f0_f[plane][c.lane]), dfdy = hn::Set(dr, s.dfdy_f[plane][c.lane]);
+    for (int n = 0; n < kBlockSize; n += step) {
+      const auto dy = hn::Add(hn::Set(dr, static_cast<float>(c.dy)),
+                              hn::Add(hn::Iota(dr, 0), hn::Set(dr, static_cast<float>(n))));
+      hn::Store(hn::Add(f0, hn::Mul(dfdy, dy)), dr, row + n);
+    }
   }
   HWY_INLINE VF At(int i) const {
-    const DF d;
-    if constexpr (kRowsPerGroup == 1) {
-      const float row = f0 + dfdy * (dy + static_cast<float>(i / kBlockSize));
-      return hn::Add(hn::Set(d, row), across[i % kBlockSize / kLanes]);
-    } else {
-      const VF y = hn::Add(hn::Set(d, dy), hn::Add(hn::Set(d, static_cast<float>(i / kBlockSize)), Row()));
-      return hn::Add(hn::Add(hn::Set(d, f0), hn::Mul(hn::Set(d, dfdy), y)), across[0]);
-    }
+    return hn::Add(FillRows(row + i / kBlockSize), across[i % kBlockSize / kLanes % kGroupsPerRow]);
   }
 
  private:
-  // Of each lane: the pixel's column in the row, and its row in the group.
+  // The column of each lane's pixel in its row.
   static HWY_INLINE VF Column() {
     const VF lane = hn::Iota(DF(), 0);
-    return kRowsPerGroup == 1 ? lane : hn::Sub(lane, hn::Mul(Row(), hn::Set(DF(), static_cast<float>(kBlockSize))));
-  }
-  static HWY_INLINE VF Row() {
-    const DF d;
-    const VF lane = hn::Iota(d, 0);
-    return hn::IfThenElseZero(hn::Ge(lane, hn::Set(d, static_cast<float>(kBlockSize))), hn::Set(d, 1.0f));
+    if constexpr (kRowsPerGroup == 1) return lane;
+    const VF width = hn::Set(DF(), static_cast<float>(kBlockSize));
+    return hn::Sub(lane, hn::IfThenElseZero(hn::Ge(lane, width), width));
   }
 };
 
@@ -153,13 +161,15 @@ struct BlockPlaneDouble {
     const auto dfdx = hn::Set(d, s.dfdx[plane][c.lane]);
     for (int g = 0; g < kGroupsPerRow; ++g)
       for (int p = 0; p < kParts; ++p)
-        across[g].part[p] = hn::Mul(dfdx, hn::Add(hn::Iota(d, 0), hn::Set(d, c.dx + (g * kLanes + p * kDoubleLanes))));
+        across[g].part[p] =
+            hn::Mul(dfdx, hn::Add(hn::Iota(d, 0), hn::Set(d, c.dx + (g * kLanes + p * kDoubleLanes))));
   }
   HWY_INLINE VD At(int i) const {
     VD v;
     for (int p = 0; p < kDoubleParts; ++p) {
       const double row = f0 + dfdy * (dy + (i / kBlockSize + p / kParts));
-      v.part[p] = hn::Add(hn::Set(DD(), row), across[kGroupsPerRow == 1 ? 0 : i % kBlockSize / kLanes].part[p % kParts]);
+      v.part[p] = hn::Add(hn::Set(DD(), row),
+                          across[kGroupsPerRow == 1 ? 0 : i % kBlockSize / kLanes].part[p % kParts]);
     }
     return v;
   }
@@ -190,7 +200,8 @@ struct BlockLanes {
 // Depths that the fragments of an image bring along.
 struct GivenDepth {
   const int32_t* values;
-  HWY_INLINE GivenDepth(const BlockContext& c, int) : values(reinterpret_cast<const int32_t*>(c.given_depth)) {}
+  HWY_INLINE GivenDepth(const BlockContext& c, int)
+      : values(reinterpret_cast<const int32_t*>(c.given_depth)) {}
   HWY_INLINE VD At(int i) const {
     VD v;
     for (int p = 0; p < kDoubleParts; ++p) {
@@ -213,10 +224,12 @@ struct PackedPlane {
   HWY_INLINE VF At(int i) const { return hn::Load(DF(), values + i); }
 };
 
-// Fragments of many small triangles, packed after their depth test; plane values were evaluated when they came in.
-// Stored in the order of the triangles, so where two fragments share a pixel the later one stays.
+// Fragments of many small triangles, packed after their depth test; plane values were evaluated when they
+// came in. Stored in the order of the triangles, so where two fragments share a pixel the later one stays.
 struct PackedLanes {
-  static HWY_INLINE uint64_t Live(const BlockContext& c) { return ~uint64_t{0} >> (kBlockPixels - c.queue->count); }
+  static HWY_INLINE uint64_t Live(const BlockContext& c) {
+    return ~uint64_t{0} >> (kBlockPixels - c.queue->count);
+  }
   using Plane = PackedPlane;
   using PlaneDouble = BlockPlaneDouble;  // never used: what needs doubles is not packed
   static HWY_INLINE VF FlatColor(const BlockContext& c, int channel, int i) {

@@ -79,7 +79,10 @@ bool needs_lambda(const TextureView& view) {
 
 void add_lookup(const TextureView& view, const Accuracy& accuracy, StageList& list) {
   using enum StageId;
-  if (needs_lambda(view)) return list.add(sample_levels);
+  if (needs_lambda(view)) {
+    list.add(choose_level);
+    return list.add(sample_levels);
+  }
   if (view.sampler.mag == Filter::nearest) return list.add(sample_nearest);
   if (accuracy.filter == Level::draft) return list.add(sample_linear_draft);
   const bool repeat = view.sampler.wrap_s == Wrap::repeat && view.sampler.wrap_t == Wrap::repeat;

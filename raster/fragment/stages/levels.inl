@@ -1,35 +1,12 @@
 // Lookups that depend on lambda: magnify or minify, which mip level, one level or two (spec 3.8.8, 3.8.9).
 
-// A level per lane: what differs between the lanes of a group is gathered here by plain loads.
-struct LaneLevels {
-  alignas(64) float width[kMaxLanes], height[kMaxLanes];
-  alignas(64) int32_t width_i[kMaxLanes], height_i[kMaxLanes], pitch[kMaxLanes];
-  const uint32_t* texels[kMaxLanes];
-
-  HWY_INLINE LaneLevels(const FragmentParams& params, VI level) {
-    alignas(64) int32_t index[kMaxLanes];
-    hn::Store(level, DI(), index);
-    for (int j = 0; j < kLanes; ++j) {
-      const LevelRef& l = params.levels[index[j]];
-      width[j] = l.width;
-      height[j] = l.height;
-      width_i[j] = l.width_i;
-      height_i[j] = l.height_i;
-      pitch[j] = l.pitch;
-      texels[j] = l.texels;
-    }
-  }
-};
-
-struct SampleLevels {
+struct ChooseLevel {
   static constexpr bool kKills = false, kPacks = false;
-
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
     const DF d;
-    const DI di;
     const FragmentParams& p = *c.params;
     const VF lambda = v.slot[kLambda];
     const MF magnify = hn::Le(lambda, hn::Set(d, p.magnify_below));
@@ -44,59 +21,115 @@ struct SampleLevels {
       level = hn::Floor(clamped);
       blend = hn::Sub(clamped, level);
     }
-    level = hn::IfThenZeroElse(magnify, level);
-    blend = hn::IfThenZeroElse(magnify, blend);
-    Look(p, hn::ConvertTo(di, level), magnify, v);
-    if (p.sampler.mip != MipMode::linear || hn::AllTrue(d, hn::Eq(blend, hn::Zero(d)))) return;
+    const float magnified = p.sampler.mag == p.sampler.min ? 0.0f : -1.0f;
+    v.slot[kMipKey] = hn::IfThenElse(magnify, hn::Set(d, magnified), level);
+    v.slot[kMipBlend] = hn::IfThenZeroElse(magnify, blend);
+  }
+};
+
+struct SampleLevels {
+  static constexpr bool kKills = false, kPacks = false;
+
+  // Where the lookups of a block read that all fall on one level, or between the same two, and are linear: most blocks
+  // are such. Found ahead of all loads, so that lookups overlap.
+  template <class L>
+  struct Once {
+    bool uniform = true, blends = false;
+    int level = 0;
+    alignas(64) int32_t offset[2][kBlockPixels];
+    alignas(64) float wu[2][kBlockPixels], wv[2][kBlockPixels];
+
+    HWY_INLINE explicit Once(const BlockContext& c) {
+      const DF d;
+      if (c.live == 0) return;
+      const float key = c.slot[kMipKey][__builtin_ctzll(c.live)];
+      const VF none = hn::Zero(d);
+      VF different = none, blend = none;
+      for (int i = 0; i < kBlockPixels; i += kLanes) {
+        const MF live = MaskFromBits(c.live >> i & kGroupBits);
+        const VF off = hn::Abs(hn::Sub(hn::Load(d, c.slot[kMipKey] + i), hn::Set(d, key)));
+        different = hn::Max(different, hn::IfThenElseZero(live, off));
+        blend = hn::Max(blend, hn::IfThenElseZero(live, hn::Load(d, c.slot[kMipBlend] + i)));
+      }
+      uniform = hn::AllTrue(d, hn::Eq(different, none)) && IsLinear(*c.params, static_cast<int>(key));
+      if (!uniform) return;
+      level = LevelOf(static_cast<int>(key));
+      blends = !hn::AllTrue(d, hn::Eq(blend, none));
+      FindPlaces(c, 0);
+      if (blends) FindPlaces(c, 1);
+    }
+
+   private:
+    HWY_INLINE void FindPlaces(const BlockContext& c, int n) {
+      const DF d;
+      const Sampler& sampler = c.params->sampler;
+      for (int i = 0; i < kBlockPixels; i += kLanes) {
+        const Place place = FindPlace(c.params->levels[level + n], sampler.wrap_s, sampler.wrap_t,
+                                      hn::Load(d, c.slot[kS] + i), hn::Load(d, c.slot[kT] + i));
+        hn::Store(place.offset, DI(), offset[n] + i);
+        hn::Store(place.wu, d, wu[n] + i);
+        hn::Store(place.wv, d, wv[n] + i);
+      }
+    }
+  };
+
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
+    if (!once.uniform) return LookEach(*c.params, v);
+    LookPlaced(*c.params, once, 0, i, v);
+    if (!once.blends) return;
     Lanes next = v;
-    Look(p, hn::ConvertTo(di, hn::Min(hn::Add(level, hn::Set(d, 1.0f)), last)), magnify, next);
-    for (int k = kTexR; k <= kTexA; ++k)
-      v.slot[k] = hn::Add(v.slot[k], hn::Mul(hn::Sub(next.slot[k], v.slot[k]), blend));
+    LookPlaced(*c.params, once, 1, i, next);
+    Blend(next, v);
   }
 
  private:
-  // One level a lane, by the magnification or the minification filter as the lane calls for.
-  static HWY_INLINE void Look(const FragmentParams& p, VI level, MF magnify, Lanes& v) {
+  static HWY_INLINE int LevelOf(int key) { return key < 0 ? 0 : key; }
+  static HWY_INLINE bool IsLinear(const FragmentParams& p, int key) {
+    return (key < 0 ? p.sampler.mag : p.sampler.min) == Filter::linear;
+  }
+
+  template <class Places>
+  static HWY_INLINE void LookPlaced(const FragmentParams& p, const Places& places, int n, int i, Lanes& v) {
     const DF d;
-    const bool mag_linear = p.sampler.mag == Filter::linear, min_linear = p.sampler.min == Filter::linear;
-    const MF all = hn::Eq(hn::Zero(d), hn::Zero(d));
-    const MF linear = mag_linear == min_linear ? (mag_linear ? all : hn::Not(all))
-                                               : (mag_linear ? magnify : hn::Not(magnify));
-    const LaneLevels levels(p, level);
-    Lanes nearest = v;
-    const bool some_linear = !hn::AllFalse(d, linear), some_nearest = !hn::AllTrue(d, linear);
-    if (some_linear) Linear(p, levels, v);
-    if (!some_nearest) return;
-    Nearest(p, levels, nearest);
+    LookLinear(p.levels[places.level + n], LaneOffsets(places.offset[n] + i), hn::Load(d, places.wu[n] + i),
+               hn::Load(d, places.wv[n] + i), v);
+  }
+
+  static HWY_INLINE void Blend(const Lanes& next, Lanes& v) {
     for (int k = kTexR; k <= kTexA; ++k)
-      v.slot[k] = some_linear ? hn::IfThenElse(linear, v.slot[k], nearest.slot[k]) : nearest.slot[k];
+      v.slot[k] = hn::Add(v.slot[k], hn::Mul(hn::Sub(next.slot[k], v.slot[k]), v.slot[kMipBlend]));
   }
 
-  static HWY_INLINE void Nearest(const FragmentParams& p, const LaneLevels& l, Lanes& v) {
+  // A lookup for each level that some live lane wants.
+  static HWY_NOINLINE void LookEach(const FragmentParams& p, Lanes& v) {
     const DF d;
-    const DI di;
-    const VF u = NearestTexel(v.slot[kS], hn::Load(d, l.width), p.sampler.wrap_s);
-    const VF t = NearestTexel(v.slot[kT], hn::Load(d, l.height), p.sampler.wrap_t);
-    alignas(64) int32_t x[kMaxLanes], y[kMaxLanes];
-    alignas(64) uint32_t texels[kMaxLanes];
-    hn::Store(TexelIndex(u, hn::Load(di, l.width_i), 0), di, x);
-    hn::Store(TexelIndex(t, hn::Load(di, l.height_i), 0), di, y);
-    for (int j = 0; j < kLanes; ++j) texels[j] = l.texels[j][(y[j] + 1) * l.pitch[j] + x[j] + 1];
-    UnpackTexels(hn::Load(DU(), texels), v);
+    alignas(64) float keys[kMaxLanes];
+    hn::Store(v.slot[kMipKey], d, keys);
+    for (unsigned todo = MaskBits(v.live); todo != 0;) {
+      const float key = keys[__builtin_ctz(todo)];
+      const MF here = hn::Eq(v.slot[kMipKey], hn::Set(d, key));
+      Lanes texels = v;
+      Look(p, static_cast<int>(key), texels);
+      for (int k = kTexR; k <= kTexA; ++k) v.slot[k] = hn::IfThenElse(here, texels.slot[k], v.slot[k]);
+      todo &= ~MaskBits(here);
+    }
   }
 
-  static HWY_INLINE void Linear(const FragmentParams& p, const LaneLevels& l, Lanes& v) {
-    const DF d;
-    const DI di;
-    const VF u = TexelCoord(v.slot[kS], hn::Load(d, l.width), p.sampler.wrap_s, 0.5f);
-    const VF t = TexelCoord(v.slot[kT], hn::Load(d, l.height), p.sampler.wrap_t, 0.5f);
-    const VF u0 = hn::Floor(u), t0 = hn::Floor(t);
-    alignas(64) int32_t x[kMaxLanes], y[kMaxLanes];
-    hn::Store(TexelIndex(u0, hn::Load(di, l.width_i), -1), di, x);
-    hn::Store(TexelIndex(t0, hn::Load(di, l.height_i), -1), di, y);
-    const uint32_t* low[kMaxLanes];
-    for (int j = 0; j < kLanes; ++j) low[j] = l.texels[j] + (y[j] + 1) * l.pitch[j] + x[j] + 1;
-    Bilinear([&](int j) HWY_ATTR { return low[j]; }, [&](int j) HWY_ATTR { return low[j] + l.pitch[j]; },
-             hn::Sub(u, u0), hn::Sub(t, t0), false, v);
+  // All lanes on the key's level, and on the one after where some blend the two.
+  static HWY_INLINE void Look(const FragmentParams& p, int key, Lanes& v) {
+    const int level = LevelOf(key);
+    LookAt(p, level, IsLinear(p, key), v);
+    if (p.sampler.mip != MipMode::linear || key < 0 || level + 1 >= p.level_count) return;
+    Lanes next = v;
+    LookAt(p, level + 1, IsLinear(p, key), next);
+    Blend(next, v);
+  }
+
+  static HWY_INLINE void LookAt(const FragmentParams& p, int index, bool linear, Lanes& v) {
+    const LevelRef& level = p.levels[index];
+    if (!linear) return LookNearest(level, p.sampler, v.slot[kS], v.slot[kT], v);
+    const Place place = FindPlace(level, p.sampler.wrap_s, p.sampler.wrap_t, v.slot[kS], v.slot[kT]);
+    LookLinear(level, LaneOffsets(place.offset), place.wu, place.wv, v);
   }
 };

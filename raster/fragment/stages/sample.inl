@@ -38,101 +38,146 @@ HWY_INLINE void UnpackTexels(VU texel, Lanes& v) {
   v.slot[kTexA] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<24>(texel)));
 }
 
+// The lanes' offsets as scalars, by way of memory: taking them out of a vector would cost the units that filter.
+struct LaneOffsets {
+  alignas(64) int32_t own[kMaxLanes];
+  const void* memory;
+  HWY_INLINE explicit LaneOffsets(VI v) : memory(own) {
+    hn::Store(v, DI(), own);
+    __asm__ volatile("" : : "r"(own) : "memory");
+  }
+  // Of values that are there already, kLanes of them.
+  HWY_INLINE explicit LaneOffsets(const void* values) : memory(values) {}
+  HWY_INLINE int64_t operator[](int j) const {
+    int32_t offset;
+    __builtin_memcpy(&offset, static_cast<const char*>(memory) + 4 * j, 4);
+    return offset;
+  }
+};
+
 // Two neighbouring texels of one row for each lane: `first` the left ones, `second` the right ones. By 64-bit loads; on
 // no x86 measured does the gather instruction win.
 struct TexelPairs {
   VU first, second;
 };
+// Of two rows of texels.
+struct Footprints {
+  TexelPairs low, high;
+};
 
-// texel(j): address of lane j's left texel.
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_SSE4
+HWY_INLINE __m128 LoadTwoPairs(const uint32_t* row, int64_t a, int64_t b) {
+  const __m128i left = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(row + a));
+  return _mm_loadh_pi(_mm_castsi128_ps(left), reinterpret_cast<const __m64*>(row + b));
+}
+#endif
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-HWY_INLINE __m128i LoadTwoPairs(const uint32_t* a, const uint32_t* b) {
-  const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(a));
-  return _mm_castps_si128(_mm_loadh_pi(_mm_castsi128_ps(low), reinterpret_cast<const __m64*>(b)));
+struct FourPairs {
+  __m256 low, high;
+};
+// Pairs of the lanes j, j + 1, j + 4 and j + 5. Both rows at once, so that an offset is in a register for both.
+HWY_INLINE FourPairs LoadFourPairs(const LaneOffsets& offsets, int j, const uint32_t* low, const uint32_t* high) {
+  const int64_t a = offsets[j], b = offsets[j + 1], c = offsets[j + 4], e = offsets[j + 5];
+  return {_mm256_insertf128_ps(_mm256_castps128_ps256(LoadTwoPairs(low, a, b)), LoadTwoPairs(low, c, e), 1),
+          _mm256_insertf128_ps(_mm256_castps128_ps256(LoadTwoPairs(high, a, b)), LoadTwoPairs(high, c, e), 1)};
 }
-// Pairs of the lanes j, j + 1, j + 4 and j + 5.
-template <class Address>
-HWY_INLINE __m256i LoadFourPairs(Address texel, int j) {
-  return _mm256_inserti128_si256(_mm256_castsi128_si256(LoadTwoPairs(texel(j), texel(j + 1))),
-                                 LoadTwoPairs(texel(j + 4), texel(j + 5)), 1);
-}
+#endif
+// low, high: where the offsets count from in the two rows.
 #if HWY_TARGET == HWY_AVX2
-template <class Address>
-HWY_INLINE TexelPairs LoadPairs(Address texel) {
-  const __m256 even = _mm256_castsi256_ps(LoadFourPairs(texel, 0)), odd = _mm256_castsi256_ps(LoadFourPairs(texel, 2));
+HWY_INLINE TexelPairs Unzip(__m256 even, __m256 odd) {
   return {VU{_mm256_castps_si256(_mm256_shuffle_ps(even, odd, 0x88))},
           VU{_mm256_castps_si256(_mm256_shuffle_ps(even, odd, 0xdd))}};
 }
-#else
-template <class Address>
-HWY_INLINE __m512 LoadEightPairs(Address texel, int j) {
-  return _mm512_castsi512_ps(
-      _mm512_inserti64x4(_mm512_castsi256_si512(LoadFourPairs(texel, j)), LoadFourPairs(texel, j + 8), 1));
+HWY_INLINE Footprints LoadFootprints(const LaneOffsets& offsets, const uint32_t* low, const uint32_t* high) {
+  const FourPairs even = LoadFourPairs(offsets, 0, low, high), odd = LoadFourPairs(offsets, 2, low, high);
+  return {Unzip(even.low, odd.low), Unzip(even.high, odd.high)};
 }
-template <class Address>
-HWY_INLINE TexelPairs LoadPairs(Address texel) {
-  const __m512 even = LoadEightPairs(texel, 0), odd = LoadEightPairs(texel, 2);
+#elif HWY_TARGET == HWY_AVX3
+HWY_INLINE __m512 Join(__m256 a, __m256 b) {
+  return _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(a)), _mm256_castps_pd(b), 1));
+}
+HWY_INLINE TexelPairs Unzip(__m512 even, __m512 odd) {
   return {VU{_mm512_castps_si512(_mm512_shuffle_ps(even, odd, 0x88))},
           VU{_mm512_castps_si512(_mm512_shuffle_ps(even, odd, 0xdd))}};
 }
-#endif
-#elif HWY_TARGET == HWY_SSE4
-HWY_INLINE __m128 LoadTwoPairs(const uint32_t* a, const uint32_t* b) {
-  const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(a));
-  return _mm_loadh_pi(_mm_castsi128_ps(low), reinterpret_cast<const __m64*>(b));
+HWY_INLINE Footprints LoadFootprints(const LaneOffsets& offsets, const uint32_t* low, const uint32_t* high) {
+  const FourPairs a = LoadFourPairs(offsets, 0, low, high), b = LoadFourPairs(offsets, 8, low, high);
+  const FourPairs c = LoadFourPairs(offsets, 2, low, high), e = LoadFourPairs(offsets, 10, low, high);
+  return {Unzip(Join(a.low, b.low), Join(c.low, e.low)), Unzip(Join(a.high, b.high), Join(c.high, e.high))};
 }
-template <class Address>
-HWY_INLINE TexelPairs LoadPairs(Address texel) {
-  const __m128 even = LoadTwoPairs(texel(0), texel(1)), odd = LoadTwoPairs(texel(2), texel(3));
+#elif HWY_TARGET == HWY_SSE4
+HWY_INLINE TexelPairs LoadPairs(const LaneOffsets& offsets, const uint32_t* row) {
+  const __m128 even = LoadTwoPairs(row, offsets[0], offsets[1]);
+  const __m128 odd = LoadTwoPairs(row, offsets[2], offsets[3]);
   return {VU{_mm_castps_si128(_mm_shuffle_ps(even, odd, 0x88))}, VU{_mm_castps_si128(_mm_shuffle_ps(even, odd, 0xdd))}};
 }
+HWY_INLINE Footprints LoadFootprints(const LaneOffsets& offsets, const uint32_t* low, const uint32_t* high) {
+  return {LoadPairs(offsets, low), LoadPairs(offsets, high)};
+}
 #else
-template <class Address>
-HWY_INLINE TexelPairs LoadPairs(Address texel) {
+HWY_INLINE TexelPairs LoadPairs(const LaneOffsets& offsets, const uint32_t* row) {
   alignas(64) uint32_t first[kMaxLanes], second[kMaxLanes];
   for (int j = 0; j < kLanes; ++j) {
-    first[j] = texel(j)[0];
-    second[j] = texel(j)[1];
+    first[j] = row[offsets[j]];
+    second[j] = row[offsets[j] + 1];
   }
   return {hn::Load(DU(), first), hn::Load(DU(), second)};
 }
+HWY_INLINE Footprints LoadFootprints(const LaneOffsets& offsets, const uint32_t* low, const uint32_t* high) {
+  return {LoadPairs(offsets, low), LoadPairs(offsets, high)};
+}
 #endif
 
+// 2^23 + a byte of each texel, without a conversion: floats from 2^23 to 2^24 are whole numbers with the byte in their
+// last bits.
+inline constexpr uint32_t kTwoTo23 = 0x4b000000u;
 template <int kChannel>
-HWY_INLINE VF Channel(VU texel) {
+HWY_INLINE VF Lifted(VU texel) {
   const DU d;
-  const VU byte = hn::Set(d, 255u);
   const VU shifted = hn::ShiftRight<8 * kChannel>(texel);
-  return hn::ConvertTo(DF(), hn::BitCast(DI(), kChannel == 3 ? shifted : hn::And(shifted, byte)));
+  return hn::BitCast(DF(), hn::OrAnd(hn::Set(d, kTwoTo23), shifted, hn::Set(d, 255u)));
 }
 
+// Columns first, then rows. What is lifted by 2^23 needs no lowering where only a difference is wanted, which is exact.
 template <int kChannel>
-HWY_INLINE VF FilterChannel(const TexelPairs& low, const TexelPairs& high, VF wu, VF wv) {
-  const VF a = Channel<kChannel>(low.first), b = Channel<kChannel>(low.second);
-  const VF left = hn::Add(a, hn::Mul(hn::Sub(Channel<kChannel>(high.first), a), wv));
-  const VF right = hn::Add(b, hn::Mul(hn::Sub(Channel<kChannel>(high.second), b), wv));
+HWY_INLINE VF FilterChannel(const Footprints& texels, VF wu, VF wv) {
+  const VF lift = hn::Set(DF(), 8388608.0f);
+  const VF a = Lifted<kChannel>(texels.low.first), b = Lifted<kChannel>(texels.low.second);
+  const VF above_a = Lifted<kChannel>(texels.high.first), above_b = Lifted<kChannel>(texels.high.second);
+  const VF left = hn::Add(hn::Sub(a, lift), hn::Mul(hn::Sub(above_a, a), wv));
+  const VF right = hn::Add(hn::Sub(b, lift), hn::Mul(hn::Sub(above_b, b), wv));
   return hn::Add(left, hn::Mul(hn::Sub(right, left), wu));
 }
 
-// Bilinear lookups for all lanes, in float: rows first, then columns. low(j), high(j): addresses of lane j's left texels
-// in the lower and the upper row. `opaque`: every alpha is 255, and interpolating 255 gives 255.
-template <class Low, class High>
-HWY_INLINE void Bilinear(Low low, High high, VF wu, VF wv, bool opaque, Lanes& v) {
-  const TexelPairs bottom = LoadPairs(low), top = LoadPairs(high);
-  v.slot[kTexR] = FilterChannel<0>(bottom, top, wu, wv);
-  v.slot[kTexG] = FilterChannel<1>(bottom, top, wu, wv);
-  v.slot[kTexB] = FilterChannel<2>(bottom, top, wu, wv);
-  v.slot[kTexA] = opaque ? hn::Set(DF(), 255.0f) : FilterChannel<3>(bottom, top, wu, wv);
+// Bilinear lookups for all lanes, in float, counting offsets from `low` and `high` in the two rows. `opaque`: every
+// alpha is 255, and interpolating 255 gives 255.
+HWY_INLINE void Bilinear(const LaneOffsets& offsets, const uint32_t* low, const uint32_t* high, VF wu, VF wv, bool opaque,
+                         Lanes& v) {
+  const Footprints texels = LoadFootprints(offsets, low, high);
+  v.slot[kTexR] = FilterChannel<0>(texels, wu, wv);
+  v.slot[kTexG] = FilterChannel<1>(texels, wu, wv);
+  v.slot[kTexB] = FilterChannel<2>(texels, wu, wv);
+  v.slot[kTexA] = opaque ? hn::Set(DF(), 255.0f) : FilterChannel<3>(texels, wu, wv);
 }
 
-// The lanes' offsets as scalars, by way of memory: taking them out of a vector would cost the units that filter.
-struct LaneOffsets {
-  alignas(64) int32_t at[kMaxLanes];
-  HWY_INLINE explicit LaneOffsets(VI v) {
-    hn::Store(v, DI(), at);
-    __asm__ volatile("" : : "r"(at) : "memory");
-  }
-};
+HWY_INLINE VI TexelOffset(const LevelRef& level, VI x, VI y) {
+  const DI di;
+  const VI one = hn::Set(di, 1);
+  return hn::Add(hn::Mul(hn::Add(y, one), hn::Set(di, level.pitch)), hn::Add(x, one));
+}
+
+// All lanes on one level.
+HWY_INLINE void LookNearest(const LevelRef& level, const Sampler& sampler, VF s, VF t, Lanes& v) {
+  const DF d;
+  const DI di;
+  const VF u0 = NearestTexel(s, hn::Set(d, level.width), sampler.wrap_s);
+  const VF t0 = NearestTexel(t, hn::Set(d, level.height), sampler.wrap_t);
+  const LaneOffsets offsets(TexelOffset(level, TexelIndex(u0, hn::Set(di, level.width_i), 0),
+                                        TexelIndex(t0, hn::Set(di, level.height_i), 0)));
+  alignas(64) uint32_t texels[kMaxLanes];
+  for (int j = 0; j < kLanes; ++j) texels[j] = level.texels[offsets[j]];
+  UnpackTexels(hn::Load(DU(), texels), v);
+}
 
 struct SampleNearest {
   static constexpr bool kKills = false, kPacks = true;
@@ -140,22 +185,28 @@ struct SampleNearest {
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
-    const DF d;
-    const DI di;
-    const LevelRef& level = c.params->levels[0];
-    const Sampler& sampler = c.params->sampler;
-    const VF u = NearestTexel(v.slot[kS], hn::Set(d, level.width), sampler.wrap_s);
-    const VF t = NearestTexel(v.slot[kT], hn::Set(d, level.height), sampler.wrap_t);
-    const VI x = TexelIndex(u, hn::Set(di, level.width_i), 0);
-    const VI y = TexelIndex(t, hn::Set(di, level.height_i), 0);
-    const VI offset =
-        hn::Add(hn::Mul(hn::Add(y, hn::Set(di, 1)), hn::Set(di, level.pitch)), hn::Add(x, hn::Set(di, 1)));
-    const LaneOffsets offsets(offset);
-    alignas(64) uint32_t texels[kMaxLanes];
-    for (int j = 0; j < kLanes; ++j) texels[j] = level.texels[offsets.at[j]];
-    UnpackTexels(hn::Load(DU(), texels), v);
+    LookNearest(c.params->levels[0], c.params->sampler, v.slot[kS], v.slot[kT], v);
   }
 };
+
+// Where a bilinear lookup reads: the offset of the lower left texel, and the weights of the right and the upper ones.
+struct Place {
+  VI offset;
+  VF wu, wv;
+};
+HWY_INLINE Place FindPlace(const LevelRef& level, Wrap wrap_s, Wrap wrap_t, VF s, VF t) {
+  const DF d;
+  const DI di;
+  const VF u = TexelCoord(s, hn::Set(d, level.width), wrap_s, 0.5f);
+  const VF v = TexelCoord(t, hn::Set(d, level.height), wrap_t, 0.5f);
+  const VF u0 = hn::Floor(u), v0 = hn::Floor(v);
+  const VI x = TexelIndex(u0, hn::Set(di, level.width_i), -1);
+  const VI y = TexelIndex(v0, hn::Set(di, level.height_i), -1);
+  return {TexelOffset(level, x, y), hn::Sub(u, u0), hn::Sub(v, v0)};
+}
+HWY_INLINE void LookLinear(const LevelRef& level, const LaneOffsets& offsets, VF wu, VF wv, Lanes& v) {
+  Bilinear(offsets, level.texels, level.texels + level.pitch, wu, wv, level.opaque, v);
+}
 
 // Where a bilinear lookup on level 0 reads: slots s, t become the weights, and the offset of the lower left texel joins
 // them. A stage of its own, since a lookup's loads can only overlap with the next row's if little lies before them.
@@ -166,35 +217,22 @@ struct Footprint {
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
-    const DF d;
-    const DI di;
-    const LevelRef& level = c.params->levels[0];
     const Wrap wrap_s = kRepeat ? Wrap::repeat : c.params->sampler.wrap_s;
     const Wrap wrap_t = kRepeat ? Wrap::repeat : c.params->sampler.wrap_t;
-    const VF u = TexelCoord(v.slot[kS], hn::Set(d, level.width), wrap_s, 0.5f);
-    const VF t = TexelCoord(v.slot[kT], hn::Set(d, level.height), wrap_t, 0.5f);
-    const VF u0 = hn::Floor(u), t0 = hn::Floor(t);
-    const VI x = TexelIndex(u0, hn::Set(di, level.width_i), -1);
-    const VI y = TexelIndex(t0, hn::Set(di, level.height_i), -1);
-    const VI one = hn::Set(di, 1);
-    const VI offset = hn::Add(hn::Mul(hn::Add(y, one), hn::Set(di, level.pitch)), hn::Add(x, one));
-    v.slot[kS] = hn::Sub(u, u0);
-    v.slot[kT] = hn::Sub(t, t0);
-    v.slot[kOffset] = hn::BitCast(d, offset);
+    const Place place = FindPlace(c.params->levels[0], wrap_s, wrap_t, v.slot[kS], v.slot[kT]);
+    v.slot[kS] = place.wu;
+    v.slot[kT] = place.wv;
+    v.slot[kOffset] = hn::BitCast(DF(), place.offset);
   }
 };
 
 struct SampleLinear {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kTakesFromMemory = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
-    const LevelRef& level = c.params->levels[0];
-    const LaneOffsets offsets(hn::BitCast(DI(), v.slot[kOffset]));
-    const uint32_t *lower = level.texels, *upper = lower + level.pitch;
-    Bilinear([&](int j) HWY_ATTR { return lower + offsets.at[j]; }, [&](int j) HWY_ATTR { return upper + offsets.at[j]; },
-             v.slot[kS], v.slot[kT], level.opaque, v);
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
+    LookLinear(c.params->levels[0], LaneOffsets(c.slot[kOffset] + i), v.slot[kS], v.slot[kT], v);
   }
 };
 
