@@ -19,19 +19,6 @@ HWY_INLINE void eye_group(const ShadeJob& job, const Group& g, uint32_t count, E
   }
 }
 
-// `size` floats of each element into columns, the rest from `fallback`; columns beyond `count` repeat it all.
-HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t count, int columns,
-                             const float* fallback, float (*out)[kVertexGroup]) {
-  const unsigned char* p = stream.data + size_t{first} * stream.stride;
-  const size_t bytes = size_t(stream.size < columns ? stream.size : columns) * sizeof(float);
-  for (uint32_t i = 0; i < kVertexGroup; ++i, p += stream.stride) {
-    float v[4];
-    memcpy(v, fallback, sizeof v);
-    if (i < count) memcpy(v, p, bytes);
-    for (int k = 0; k < columns; ++k) out[k][i] = v[k];
-  }
-}
-
 // Whether squares and products of such a normal's components are harmless floats.
 HWY_INLINE FloatMask is_moderate(FloatVec longest) {
   const Floats f;

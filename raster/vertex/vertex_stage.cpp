@@ -32,10 +32,9 @@ constexpr uint32_t kGroup = kVertexGroup;
 
 struct alignas(64) Group {
   float position[4][kGroup];
-  double z[kGroup], inv_w[kGroup];
-  int32_t x[kGroup], y[kGroup];
-  float rest_x[kGroup], rest_y[kGroup];
+  VertexHead heads[kGroup];
   uint64_t outcode[kGroup];
+  bool all_inside;
 };
 
 struct ClipVec {
@@ -86,34 +85,49 @@ HWY_INLINE Vec outcodes(const ClipVec& c, const WindowTransform& t) {
   return hn::IfThenElse(finite, code, code_if(hn::Not(finite), kOutNotFinite));
 }
 
+struct Fixed {
+  hn::Vec<hn::Rebind<int32_t, Doubles>> value;
+  hn::Vec<hn::Rebind<float, Doubles>> rest;
+};
+
 // x / w, not x * (1 / w): correctly rounded, so that a vertex meant to lie on the grid does.
-HWY_INLINE void store_fixed(Vec clip, Vec w, Mask usable, double scale, double offset, int32_t* out,
-                            float* rest) {
+HWY_INLINE Fixed to_fixed(Vec clip, Vec w, Mask usable, double scale, double offset) {
   const Doubles d;
   const hn::Rebind<int32_t, Doubles> di;
   const hn::Rebind<float, Doubles> df;
   const Vec ideal = hn::Mul(hn::Div(clip, w), hn::Set(d, scale));
   const Vec grid = hn::Floor(hn::Add(ideal, hn::Set(d, 0.5)));
-  hn::StoreU(hn::DemoteTo(df, hn::IfThenElseZero(usable, hn::Sub(ideal, grid))), df, rest);
+  const auto rest = hn::DemoteTo(df, hn::IfThenElseZero(usable, hn::Sub(ideal, grid)));
   Vec v = hn::Add(grid, hn::Set(d, offset));
   v = hn::IfThenElseZero(usable, v);
   const Vec high = hn::Set(d, double(kGuardBandMax) * kSubpixelScale - 1);  // may have been rounded up to it
   v = hn::IfThenElse(hn::Gt(v, high), high, v);
-  hn::StoreU(hn::DemoteTo(di, v), di, out);
+  return {hn::DemoteTo(di, v), rest};
+}
+
+// Two 32-bit values a lane as they lie one after the other in memory.
+template <class V>
+HWY_INLINE hn::Vec<Words> join(V low, V high) {
+  const hn::Rebind<uint32_t, Doubles> half;
+  return hn::Or(hn::PromoteTo(Words(), hn::BitCast(half, low)),
+                hn::ShiftLeft<32>(hn::PromoteTo(Words(), hn::BitCast(half, high))));
 }
 
 HWY_INLINE void store_window(const ClipVec& c, Mask usable, const WindowTransform& t, Group& g, uint32_t i) {
   const Doubles d;
   const Vec one = hn::Set(d, 1.0);
   const Vec w = hn::IfThenElse(usable, c.w, one);
-  store_fixed(c.x, w, usable, t.scale_x, t.offset_x, g.x + i, g.rest_x + i);
-  store_fixed(c.y, w, usable, t.scale_y, t.offset_y, g.y + i, g.rest_y + i);
+  const Fixed x = to_fixed(c.x, w, usable, t.scale_x, t.offset_x);
+  const Fixed y = to_fixed(c.y, w, usable, t.scale_y, t.offset_y);
   Vec z = hn::Add(hn::Mul(hn::Div(c.z, w), hn::Set(d, t.depth_scale)), hn::Set(d, t.depth_offset));
   const Vec low = hn::Set(d, t.depth_low), high = hn::Set(d, t.depth_high);  // an ulp beyond, at most
   z = hn::IfThenElse(hn::Lt(z, low), low, z);
   z = hn::IfThenElse(hn::Gt(z, high), high, z);
-  hn::Store(hn::IfThenElseZero(usable, z), d, g.z + i);
-  hn::Store(hn::IfThenElseZero(usable, hn::Div(one, w)), d, g.inv_w + i);
+  const Vec inv_w = hn::IfThenElseZero(usable, hn::Div(one, w));
+  // A head's four words, in their order: x and y, z, 1/w, what snapping took.
+  static_assert(sizeof(VertexHead) == 4 * sizeof(double) && offsetof(VertexHead, inv_w) == 16);
+  hn::StoreInterleaved4(hn::BitCast(d, join(x.value, y.value)), hn::IfThenElseZero(usable, z), inv_w,
+                        hn::BitCast(d, join(x.rest, y.rest)), d, reinterpret_cast<double*>(g.heads + i));
 }
 
 HWY_INLINE Vec load_column(const float* column) {
@@ -141,6 +155,7 @@ HWY_INLINE void shade_lanes(const ShadeJob& job, Group& g, uint32_t i, ClipVerte
   if (HWY_LIKELY(job.window.inside_guard && hn::AllTrue(d, usable))) {
     hn::Store(hn::Zero(Words()), Words(), g.outcode + i);
   } else {
+    g.all_inside = false;
     const Vec code = outcodes(c, job.window);
     const Vec bad = hn::BitCast(d, hn::Set(Words(), uint64_t{kOutCutMask | kOutNotFinite}));
     usable = hn::RebindMask(d, hn::Eq(hn::BitCast(Words(), hn::And(code, bad)), hn::Zero(Words())));
@@ -149,60 +164,17 @@ HWY_INLINE void shade_lanes(const ShadeJob& job, Group& g, uint32_t i, ClipVerte
   store_window(c, usable, job.window, g, i);
 }
 
-HWY_INLINE void load_positions(const StreamRef& stream, uint32_t first, uint32_t count, Group& g) {
-  const unsigned char* p = stream.data + size_t{first} * stream.stride;
-  if (stream.size == 4) {
-    for (uint32_t i = 0; i < count; ++i, p += stream.stride) {
-      float v[4];
-      memcpy(v, p, sizeof v);
-      for (int k = 0; k < 4; ++k) g.position[k][i] = v[k];
-    }
-  } else {
-    const size_t bytes = size_t(stream.size) * sizeof(float);
-    for (uint32_t i = 0; i < count; ++i, p += stream.stride) {
-      float v[4] = {0, 0, 0, 1};
-      memcpy(v, p, bytes);
-      for (int k = 0; k < 4; ++k) g.position[k][i] = v[k];
-    }
-  }
-  for (uint32_t i = count; i % kGroup != 0; ++i) {
-    for (int k = 0; k < 4; ++k) g.position[k][i] = 1.0f;
-  }
-}
-
-// Field by field: a head built aside and copied would be read back wider than it was written, which stalls.
 HWY_INLINE void store_heads(const ShadeJob& job, uint32_t first, uint32_t count, const Group& g) {
-  const size_t stride = job.record_stride;
-  unsigned char* record = job.records + size_t{first} * stride;
-  uint16_t* outcode = job.outcodes + first;
-  for (uint32_t i = 0; i < count; ++i, record += stride) {
-    VertexHead* head = reinterpret_cast<VertexHead*>(record);
-    head->x = g.x[i];
-    head->y = g.y[i];
-    head->z = g.z[i];
-    head->inv_w = g.inv_w[i];
-    head->rest_x = g.rest_x[i];
-    head->rest_y = g.rest_y[i];
-    outcode[i] = uint16_t(g.outcode[i]);
-  }
+  unsigned char* record = job.records + size_t{first} * job.record_stride;
+  for (uint32_t i = 0; i < count; ++i, record += job.record_stride) memcpy(record, g.heads + i, sizeof g.heads[i]);
 }
 
-// Comparisons and selects rather than min and max: those disagree between levels about NaN and -0.
-HWY_INLINE void shade_colors(const ShadeJob& job, uint32_t first, uint32_t count) {
-  const hn::CappedTag<float, 4> d;
-  const auto one = hn::Set(d, 1.0f);
-  const unsigned char* p = job.color.data + size_t{first} * job.color.stride;
-  unsigned char* out = job.records + size_t{first} * job.record_stride + job.color_offset;
-  const size_t bytes = size_t(job.color.size) * sizeof(float);
-  for (uint32_t i = 0; i < count; ++i, p += job.color.stride, out += job.record_stride) {
-    alignas(16) float rgba[4] = {0, 0, 0, 1};
-    memcpy(rgba, p, bytes);
-    for (size_t k = 0; k < 4; k += hn::Lanes(d)) {
-      auto v = hn::Load(d, rgba + k);
-      v = hn::IfThenElseZero(hn::Gt(v, hn::Zero(d)), v);
-      hn::Store(hn::IfThenElse(hn::Lt(v, one), v, one), d, rgba + k);
-    }
-    memcpy(out, rgba, sizeof rgba);
+HWY_INLINE void store_outcodes(const ShadeJob& job, uint32_t first, uint32_t count, const Group& g) {
+  uint16_t* outcode = job.outcodes + first;
+  if (HWY_LIKELY(g.all_inside)) {
+    memset(outcode, 0, count * sizeof *outcode);
+  } else {
+    for (uint32_t i = 0; i < count; ++i) outcode[i] = uint16_t(g.outcode[i]);
   }
 }
 
@@ -218,8 +190,12 @@ HWY_INLINE float bounded_double(double v) {
   return v < 0 ? -kMaxTexCoord : 0.0f;
 }
 
+inline constexpr uint32_t kLongestVector = 16;            // lanes
+inline constexpr float kDefaults[4] = {0, 0, 0, 1};  // of a position's, colour's and coordinate's components
+
 // Each uses what stands in those before it.
 // clang-format off
+#include "raster/vertex/streams.inl"
 #include "raster/vertex/power.inl"
 #include "raster/vertex/lighting.inl"
 #include "raster/vertex/eye_space.inl"
@@ -254,10 +230,9 @@ HWY_INLINE void shade_tex_coords(const ShadeJob& job, uint32_t first, uint32_t c
   }
   const unsigned char* p = job.tex_coord.data + size_t{first} * job.tex_coord.stride;
   unsigned char* out = job.records + size_t{first} * job.record_stride + job.tex_coord_offset;
-  const size_t bytes = size_t(job.tex_coord.size) * sizeof(float);
   for (uint32_t i = 0; i < count; ++i, p += job.tex_coord.stride, out += job.record_stride) {
-    float v[4] = {0, 0, 0, 1};
-    memcpy(v, p, bytes);
+    float v[4];
+    load_element(p, job.tex_coord.size, kDefaults, v);
     for (int k = 0; k < 4; ++k) v[k] = bounded(v[k]);
     if (job.tex_gen.any) generate_coords(job.tex_gen, g, *e, i, v);
     float result[4] = {v[0], v[1], v[2], v[3]};
@@ -278,8 +253,7 @@ HWY_INLINE void store_colors(const ShadeJob& job, const float (*columns)[kVertex
 }
 
 HWY_INLINE void shade_lit_colors(const ShadeJob& job, uint32_t first, uint32_t count, EffectColumns& e) {
-  const float fallback[4] = {0, 0, 0, 1};
-  if (job.lighting->tracks_color) load_columns(job.color, first, count, 4, fallback, e.color);
+  if (job.lighting->tracks_color) load_columns(job.color, first, count, 4, kDefaults, e.color);
   light_group(*job.lighting, job.material_index ? job.material_index + first : nullptr, count, e);
   store_colors(job, e.lit[0], job.color_offset, first, count);
   if (job.back_color_offset >= 0) store_colors(job, e.lit[1], job.back_color_offset, first, count);
@@ -312,10 +286,12 @@ void shade(const ShadeJob& job, uint32_t first, uint32_t count) {
     const uint32_t n = count < kGroup ? count : kGroup;
     const bool whole = n == kGroup;
     ClipVertex* clip = whole ? job.clip + first : tail;
-    load_positions(job.position, first, n, group);
-    for (uint32_t i = 0; i < kGroup; i += uint32_t(hn::Lanes(Doubles()))) shade_lanes(job, group, i, clip);
+    load_columns(job.position, first, n, 4, kDefaults, group.position);
+    group.all_inside = true;
+    for (uint32_t i = 0; i < n; i += uint32_t(hn::Lanes(Doubles()))) shade_lanes(job, group, i, clip);
     if (!whole) memcpy(job.clip + first, tail, n * sizeof(ClipVertex));
     store_heads(job, first, n, group);
+    store_outcodes(job, first, n, group);
     if (job.color_offset >= 0 && !job.lighting) shade_colors(job, first, n);
     if (job.tex_coord_offset >= 0 && !job.tex_gen.any) shade_tex_coords(job, first, n, group, nullptr);
     if (job.needs_eye || job.needs_normal || job.lighting || job.tex_gen.any)

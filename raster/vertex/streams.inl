@@ -1,0 +1,114 @@
+// Attributes from client memory, a vertex or a column at a time. Compiled once an ISA level.
+
+HWY_INLINE void load_element(const unsigned char* from, int size, const float* fallback, float* to) {
+  for (int k = 0; k < 4; ++k) to[k] = fallback[k];
+  for (int k = 0; k < size; ++k) memcpy(to + k, from + size_t(k) * sizeof(float), sizeof(float));
+}
+
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t count, int columns,
+                             const float* fallback, float (*out)[kVertexGroup]) {
+  const unsigned char* p = stream.data + size_t{first} * stream.stride;
+  for (uint32_t i = 0; i < count; ++i, p += stream.stride) {
+    float v[4];
+    load_element(p, stream.size, fallback, v);
+    for (int k = 0; k < columns; ++k) out[k][i] = v[k];
+  }
+}
+
+HWY_INLINE void shade_colors(const ShadeJob& job, uint32_t first, uint32_t count) {
+  const unsigned char* p = job.color.data + size_t{first} * job.color.stride;
+  unsigned char* out = job.records + size_t{first} * job.record_stride + job.color_offset;
+  for (uint32_t i = 0; i < count; ++i, p += job.color.stride, out += job.record_stride) {
+    float rgba[4];
+    load_element(p, job.color.size, kDefaults, rgba);
+    for (float& v : rgba) v = v > 0 ? (v < 1 ? v : 1.0f) : 0.0f;
+    memcpy(out, rgba, sizeof rgba);
+  }
+}
+
+#else
+
+using Quads = hn::CappedTag<float, 4>;
+using QuadVec = hn::Vec<Quads>;
+
+// Elements of a stream as four floats each; what one lacks is filled up. Reads four from memory whatever their size:
+// only behind the last elements would that reach beyond the array.
+struct QuadReader {
+  const unsigned char* from;
+  size_t stride;
+  int size;
+  uint32_t careful;  // from this element on, no more is read than there is
+  const float* fallback;
+  QuadVec missing;
+  hn::Mask<Quads> given;
+
+  HWY_INLINE QuadReader(const StreamRef& stream, uint32_t first, uint32_t count, const float* defaults)
+      : from(stream.data + size_t{first} * stream.stride),
+        stride(stream.stride),
+        size(stream.size),
+        careful(count - careful_elements(stream, count)),
+        fallback(defaults),
+        missing(hn::LoadU(Quads(), defaults)),
+        given(hn::FirstN(Quads(), size_t(stream.size))) {}
+
+  HWY_INLINE QuadVec get(uint32_t i) const {
+    const unsigned char* p = from + size_t{i} * stride;
+    if (HWY_LIKELY(i < careful))
+      return hn::IfThenElse(given, hn::LoadU(Quads(), reinterpret_cast<const float*>(p)), missing);
+    float v[4];
+    load_element(p, size, fallback, v);
+    return hn::LoadU(Quads(), v);
+  }
+
+ private:
+  static HWY_INLINE uint32_t careful_elements(const StreamRef& stream, uint32_t count) {
+    const size_t lacking = size_t(4 - stream.size) * sizeof(float);
+    if (lacking == 0) return 0;
+    const size_t elements = stream.stride == 0 ? count : (lacking + stream.stride - 1) / stream.stride;
+    return elements < count ? uint32_t(elements) : count;
+  }
+};
+
+HWY_INLINE void store_columns(QuadVec a, QuadVec b, QuadVec c, QuadVec e, int columns, uint32_t i,
+                              float (*out)[kVertexGroup]) {
+  const Quads d;
+  const QuadVec low_ab = hn::InterleaveLower(d, a, b), low_ce = hn::InterleaveLower(d, c, e);
+  const QuadVec high_ab = hn::InterleaveUpper(d, a, b), high_ce = hn::InterleaveUpper(d, c, e);
+  const QuadVec column[4] = {hn::ConcatLowerLower(d, low_ce, low_ab), hn::ConcatUpperUpper(d, low_ce, low_ab),
+                             hn::ConcatLowerLower(d, high_ce, high_ab), hn::ConcatUpperUpper(d, high_ce, high_ab)};
+  for (int k = 0; k < columns; ++k) hn::Store(column[k], d, out[k] + i);
+}
+
+// The first `columns` floats of each element, missing ones from `fallback`. Columns are filled up to a multiple of the
+// longest vector.
+HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t count, int columns,
+                             const float* fallback, float (*out)[kVertexGroup]) {
+  const QuadReader quads(stream, first, count, fallback);
+  uint32_t i = 0;
+  for (; i + 4 <= count; i += 4)
+    store_columns(quads.get(i), quads.get(i + 1), quads.get(i + 2), quads.get(i + 3), columns, i, out);
+  const QuadVec none = quads.missing;
+  if (i < count) {
+    store_columns(quads.get(i), i + 1 < count ? quads.get(i + 1) : none, i + 2 < count ? quads.get(i + 2) : none, none,
+                  columns, i, out);
+    i += 4;
+  }
+  for (; i % kLongestVector != 0; i += 4) store_columns(none, none, none, none, columns, i, out);
+}
+
+// Comparisons and selects rather than min and max: those disagree between levels about NaN and -0.
+HWY_INLINE void shade_colors(const ShadeJob& job, uint32_t first, uint32_t count) {
+  const Quads d;
+  const QuadVec zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const QuadReader quads(job.color, first, count, kDefaults);
+  unsigned char* out = job.records + size_t{first} * job.record_stride + job.color_offset;
+  for (uint32_t i = 0; i < count; ++i, out += job.record_stride) {
+    QuadVec v = quads.get(i);
+    v = hn::IfThenElseZero(hn::Gt(v, zero), v);
+    hn::StoreU(hn::IfThenElse(hn::Lt(v, one), v, one), d, reinterpret_cast<float*>(out));
+  }
+}
+
+#endif
