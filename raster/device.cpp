@@ -405,6 +405,16 @@ const DeviceStatistics& Device::statistics() const { return impl_->statistics; }
 
 namespace {
 
+std::vector<uint32_t> tiles_of(const Framebuffer::Impl& fb, const Rect& rect) {
+  std::vector<uint32_t> tiles;
+  const Rect inside = intersect(rect, {0, 0, fb.width, fb.height});
+  if (inside.empty()) return tiles;
+  const TileBox box = tile_box(inside);
+  for (int y = box.y0; y <= box.y1; ++y)
+    for (int x = box.x0; x <= box.x1; ++x) tiles.push_back(static_cast<uint32_t>(y * fb.tiles_x + x));
+  return tiles;
+}
+
 // Calls read(x0, x1, y, out) for each row of `rect` that the framebuffer has.
 template <class T, class Read>
 void read_rows(const Framebuffer::Impl& fb, const Rect& rect, size_t channels, T* out, Read read) {
@@ -420,13 +430,18 @@ void read_rows(const Framebuffer::Impl& fb, const Rect& rect, size_t channels, T
 }  // namespace
 
 void Device::read_color(const Rect& rect, uint8_t* out, ColorPlane plane) {
-  if (impl_->target == nullptr) return;
+  if (impl_->target == nullptr || rect.empty()) return;
   finish();
   const Framebuffer::Impl& fb = *impl_->target;
-  std::vector<uint32_t> row(static_cast<size_t>(fb.width));
-  read_rows(fb, rect, 4, out, [&](int x0, int x1, int y, uint8_t* to) {
-    read_row_rgba8(fb, plane_index(plane), x0, x1, y, row.data());
-    std::memcpy(to, row.data(), static_cast<size_t>(x1 - x0) * 4);
+  const int width = rect.x1 - rect.x0;
+  LinearImage image;
+  image.data = out;
+  image.row_bytes = ptrdiff_t{width} * 4;
+  image.width = width;
+  image.height = rect.y1 - rect.y0;
+  const std::vector<uint32_t> tiles = tiles_of(fb, rect);
+  impl_->pool.run(static_cast<uint32_t>(tiles.size()), [&](uint32_t i, int) {
+    resolve_tile(fb, tiles[i], plane_index(plane), image, rect.x0, rect.y0);
   });
 }
 

@@ -132,10 +132,19 @@ size_t pixel_bytes(const LinearImage& image) {
   }
 }
 
-std::byte* image_row(const LinearImage& image, int y) {
-  const int row = image.y_up ? y : image.height - 1 - y;
-  return static_cast<std::byte*>(image.data) + row * image.row_bytes;
-}
+// An image and where in the framebuffer it lies.
+struct Placed {
+  const LinearImage& image;
+  int left, bottom;
+
+  Rect rect() const { return {left, bottom, left + image.width, bottom + image.height}; }
+  // The image's top row is the framebuffer's when y goes down, so rows are told from the bottom of the image.
+  std::byte* at(int x, int y) const {
+    const int row = image.y_up ? y - bottom : image.height - 1 - (y - bottom);
+    return static_cast<std::byte*>(image.data) + row * image.row_bytes +
+           static_cast<size_t>(x - left) * pixel_bytes(image);
+  }
+};
 
 bool takes_rgba8(const LinearImage& image) {
   return image.layout == PixelLayout::rgba && !image.opaque && !image.float_components &&
@@ -144,7 +153,8 @@ bool takes_rgba8(const LinearImage& image) {
 
 // The usual case: a whole tile of bytes.
 bool resolve_whole_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, const Rect& rect,
-                        const LinearImage& image) {
+                        const Placed& placed) {
+  const LinearImage& image = placed.image;
   if (fb.format != ColorFormat::rgba8 || image.float_components || rect.x1 - rect.x0 != kTileSize ||
       rect.y1 - rect.y0 != kTileSize)
     return false;
@@ -155,7 +165,7 @@ bool resolve_whole_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, c
   for (int band = 0; band < 8; ++band) {
     const TileBand rows(fb, tile, plane, band, clear_row);
     for (int row = 0; row < kBlockSize; ++row) {
-      std::byte* out = image_row(image, rect.y0 + band * kBlockSize + row) + static_cast<size_t>(rect.x0) * pixel_bytes(image);
+      std::byte* out = placed.at(rect.x0, rect.y0 + band * kBlockSize + row);
       if (direct) {
         rows.copy_row(row, reinterpret_cast<uint32_t*>(out));
         continue;
@@ -168,8 +178,9 @@ bool resolve_whole_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, c
   return true;
 }
 
-void resolve_row(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, const LinearImage& image) {
-  std::byte* out = image_row(image, y) + static_cast<size_t>(x0) * pixel_bytes(image);
+void resolve_row(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, const Placed& placed) {
+  const LinearImage& image = placed.image;
+  std::byte* out = placed.at(x0, y);
   const int count = x1 - x0;
   if (image.float_components && image.layout != PixelLayout::rgb565) {
     float rgba[kTileSize * 4];
@@ -236,11 +247,12 @@ void read_row_stencil(const Framebuffer::Impl& fb, int x0, int x1, int y, uint8_
   });
 }
 
-void resolve_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, const LinearImage& image) {
-  // The image's top row is the framebuffer's when y goes down, so rows are told from the bottom of the image.
-  const Rect rect = intersect(fb.tile_rect(tile), {0, 0, image.width, image.height});
-  if (rect.empty() || resolve_whole_tile(fb, tile, plane, rect, image)) return;
-  for (int y = rect.y0; y < rect.y1; ++y) resolve_row(fb, plane, rect.x0, rect.x1, y, image);
+void resolve_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, const LinearImage& image, int left,
+                  int bottom) {
+  const Placed placed{image, left, bottom};
+  const Rect rect = intersect(fb.tile_rect(tile), placed.rect());
+  if (rect.empty() || resolve_whole_tile(fb, tile, plane, rect, placed)) return;
+  for (int y = rect.y0; y < rect.y1; ++y) resolve_row(fb, plane, rect.x0, rect.x1, y, placed);
 }
 
 namespace {
