@@ -27,10 +27,4 @@ Times now() {
           milliseconds(CLOCK_MONOTONIC)};
 }
 
-long peak_resident_kib() {
-  rusage self{};
-  getrusage(RUSAGE_SELF, &self);
-  return self.ru_maxrss;
-}
-
 }  // namespace halfspace::bench

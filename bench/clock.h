@@ -15,7 +15,4 @@ inline Times operator-(const Times& a, const Times& b) {
   return {a.cpu_ms - b.cpu_ms, a.wall_ms - b.wall_ms};
 }
 
-// The largest resident set so far, in KiB.
-long peak_resident_kib();
-
 }  // namespace halfspace::bench

@@ -2,30 +2,22 @@
 
     instructions.py REF_APP_OSMESA OLD_LIBRARIES NEW_LIBRARIES [--scenes 1 2 ...] [--limit PERCENT]
 
-A count does not depend on how busy the machine is. A frame is what is left when a run of two frames is taken from one of
-four, halved. Both builds run at AVX2, the widest level valgrind knows, on one thread. Exit status 1 if any scene takes
-more than the limit (3 %) over the old build.
+A frame is what is left when a run of two frames is taken from one of four, halved. Exit status 1 if any scene takes more
+than the limit (3 %) over the old build.
 """
 import argparse
 import concurrent.futures
 import os
-import re
-import subprocess
 import sys
 import tempfile
+
+import callgrind
 
 
 def count(program, libraries, scene, frames):
     with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run(
-            ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", program, "--scene", str(scene),
-             "--frames", str(frames), "--no-pictures", "--out", folder],
-            env=os.environ | {"LD_LIBRARY_PATH": libraries, "HALFSPACE_THREADS": "1", "HALFSPACE_ISA": "avx2"},
-            capture_output=True, text=True, check=False)
-    found = re.search(r"Collected : (\d+)", done.stderr)
-    if done.returncode or not found or "Halfspace avx2" not in done.stdout:
-        sys.exit(f"instructions: scene {scene} did not run on {libraries}:\n{done.stdout}{done.stderr}")
-    return int(found[1])
+        return callgrind.instructions([program, "--scene", scene, "--frames", frames, "--no-pictures", "--out", folder],
+                                      {"LD_LIBRARY_PATH": libraries}, "Halfspace avx2")
 
 
 def frame(program, libraries, scene):

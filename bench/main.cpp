@@ -8,7 +8,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "bench/gl.h"
+#include "bench/memory.h"
 #include "bench/runner.h"
 #include "bench/start_up.h"
 
@@ -80,10 +80,11 @@ void run(const Options& options) {
     return;
   }
   if (options.core >= 0) pin_to(options.core);
+  const long unloaded_kib = memory_now().resident_kib;
   const Library library(options.library);
   set_start_up_library(library.path());
   if (options.serve)
-    serve(library, options.screen, std::cin, std::cout);
+    serve(library, options.screen, unloaded_kib, std::cin, std::cout);
   else
     measure_all(library, options);
 }

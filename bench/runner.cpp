@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "bench/gl.h"
+#include "bench/memory.h"
 
 namespace halfspace::bench {
 
@@ -52,7 +53,8 @@ std::string gl_string(GLenum name) { return reinterpret_cast<const char*>(gl.Get
 
 class Servant {
  public:
-  Servant(const Library& library, Screen screen) : library_(library), screen_(screen) {}
+  Servant(const Library& library, Screen screen, long unloaded_kib)
+      : library_(library), screen_(screen), unloaded_kib_(unloaded_kib) {}
 
   Json answer(const std::string& line) {
     std::istringstream words(line);
@@ -60,8 +62,10 @@ class Servant {
     words >> order;
     std::getline(words >> std::ws, argument);
     if (order == "list") return {{"workloads", list_of_workloads()}};
-    if (order == "open") return open(argument);
-    if (order == "memory") return {{"peak_kib", peak_resident_kib()}};
+    if (order == "open") return open(workload_named(argument));
+    if (order == "empty")
+      return open({"empty", 0, 0, "", [](Screen) -> Frame { return [] { gl.Finish(); }; }});
+    if (order == "memory") return memory();
     if (!run_) throw std::runtime_error(order + ": nothing is open");
     if (order == "run") return run(std::stoi(argument));
     if (order == "picture") run_->save_picture(argument);
@@ -70,9 +74,9 @@ class Servant {
   }
 
  private:
-  Json open(const std::string& name) {
+  Json open(const Workload& workload) {
     run_.reset();  // one context at a time
-    run_ = std::make_unique<Run>(library_, workload_named(name), screen_);
+    run_ = std::make_unique<Run>(library_, workload, screen_);
     return {{"renderer", gl_string(GL_RENDERER)}, {"version", gl_string(GL_VERSION)}};
   }
   Json run(int count) {
@@ -80,15 +84,24 @@ class Servant {
     return {{"cpu_ms", time.cpu_ms}, {"wall_ms", time.wall_ms}};
   }
 
+  Json memory() const {
+    const Memory memory = memory_now();
+    forget_peak();
+    return {{"resident_kib", memory.resident_kib},
+            {"peak_kib", memory.peak_kib},
+            {"unloaded_kib", unloaded_kib_}};
+  }
+
   const Library& library_;
   Screen screen_;
+  long unloaded_kib_;
   std::unique_ptr<Run> run_;
 };
 
 }  // namespace
 
-void serve(const Library& library, Screen screen, std::istream& in, std::ostream& out) {
-  Servant servant(library, screen);
+void serve(const Library& library, Screen screen, long unloaded_kib, std::istream& in, std::ostream& out) {
+  Servant servant(library, screen, unloaded_kib);
   for (std::string line; std::getline(in, line);) {
     Json answer;
     try {

@@ -36,8 +36,9 @@ class Run {
 //   open NAME      a fresh context, the workload prepared; answers renderer, version
 //   run COUNT      so many frames; answers cpu_ms and wall_ms, of all together
 //   picture PATH   the last frame, as PPM
-//   memory         answers peak_kib
-//   close
-void serve(const Library& library, Screen screen, std::istream& in, std::ostream& out);
+//   empty          a fresh context in which nothing is drawn; its frame is a glFinish
+//   memory         answers resident_kib, peak_kib since it was asked last, and unloaded_kib: before the
+//   library came close
+void serve(const Library& library, Screen screen, long unloaded_kib, std::istream& in, std::ostream& out);
 
 }  // namespace halfspace::bench

@@ -110,6 +110,9 @@ Mesh terrain(int cells) {
   Mesh mesh;
   Numbers numbers(1);
   const auto side = static_cast<GLuint>(cells + 1);
+  // No more than is needed, and nothing left behind that a library's memory could hide in.
+  mesh.vertices.reserve(static_cast<size_t>(side) * side);
+  mesh.indices.reserve(static_cast<size_t>(cells) * static_cast<size_t>(cells) * 6);
   for (GLuint row = 0; row < side; ++row)
     for (GLuint column = 0; column < side; ++column) {
       const float x = 2 * static_cast<float>(column) / static_cast<float>(cells) - 1;
