@@ -82,7 +82,7 @@ bool Assembly::start(std::span<const uint32_t> places) {
 
 void Assembly::points() {
   for (uint32_t i = 0; i < packet_.index_count; ++i) {
-    if (start(std::array{i})) point(corner(vertex(i), {}), {});
+    if (start(std::array{i}) && volume_.holds(vertex(i).corner)) point(corner(vertex(i), {}), {});
   }
 }
 
@@ -251,10 +251,11 @@ void Assembly::outline(const Face& face, const Side& side, bool flagged) {
     corners.push_back(corner(vertex(place), side));
     if (!flagged) corners.back().edge = true;
   }
-  const Polygon left = volume_.cut_by_user_planes(corners);
+  const bool lines = mode_of(side.back) == PolygonMode::line;  // each of them is cut when it is drawn
+  const Polygon left = volume_.cut_outline(corners, !lines);
   for (size_t i = 0; i < left.size(); ++i) {
     if (!left[i].edge) continue;
-    if (mode_of(side.back) == PolygonMode::line)
+    if (lines)
       line(left[i], left[(i + 1) % left.size()], side);
     else
       point(left[i], side);

@@ -12,7 +12,7 @@ constexpr double kLeastW = 1e-30;
 // Sutherland and Hodgman's step: leaving starts the plane's own edge, coming back goes on along the edge it
 // lies on.
 template <class Distance>
-Polygon cut_once(const Polygon& polygon, Distance distance) {
+Polygon cut_once(const Polygon& polygon, Distance distance, bool new_edge = true) {
   Polygon kept;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const Corner &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
@@ -21,7 +21,7 @@ Polygon cut_once(const Polygon& polygon, Distance distance) {
     if ((d_from >= 0) == (d_to >= 0)) continue;
     const bool leaves = d_from >= 0;
     kept.push_back(leaves ? crossing(from, d_from, to, d_to) : crossing(to, d_to, from, d_from));
-    kept.back().edge = leaves || from.edge;
+    kept.back().edge = leaves ? new_edge : from.edge;
   }
   return kept;
 }
@@ -105,11 +105,17 @@ Polygon ClipVolume::cut(const Polygon& polygon, bool* was_cut, bool by_user) con
   return left.size() < 3 ? Polygon() : left;
 }
 
-Polygon ClipVolume::cut_by_user_planes(const Polygon& polygon) const {
+Polygon ClipVolume::cut_outline(const Polygon& polygon, bool at_view_volume) const {
   Polygon left = polygon;
-  for (int plane = kFirstUser; plane < kPlanes; ++plane) {
-    if (applies(plane)) left = cut_once(left, [&](const Corner& c) { return distance(c, plane); });
-  }
+  const auto cut_by = [&](int plane, bool new_edge) {
+    left = cut_once(
+        left, [&](const Corner& c) { return distance(c, plane); }, new_edge);
+  };
+  for (int plane = kFirstUser; plane < kPlanes; ++plane)
+    if (applies(plane)) cut_by(plane, true);
+  for (int plane = 0; at_view_volume && plane <= kPlaneW; ++plane) cut_by(plane, false);
+  // The user's planes are done with: where an edge lies on one, rounding is not to decide about it again.
+  for (Corner& c : left) c.user.fill(0);
   return left;
 }
 

@@ -26,8 +26,10 @@ class ClipVolume {
   // A convex polygon, cut; empty when nothing is left. *was_cut: some plane had to. `by_user`: the user's
   // planes cut, too.
   Polygon cut(const Polygon& polygon, bool* was_cut, bool by_user = true) const;
-  // By the user's planes alone. The edge a cut makes is drawn; what is left of an edge keeps its flag.
-  Polygon cut_by_user_planes(const Polygon& polygon) const;
+  // A polygon whose edges are to be drawn, cut by the user's planes, and `at_view_volume`. What is left of an
+  // edge keeps its flag. The edge that a user plane makes is drawn; one along the view volume's boundary is
+  // not (the house's reading of spec 2.12: it would frame the picture).
+  Polygon cut_outline(const Polygon& polygon, bool at_view_volume) const;
   // A line; false: nothing is left. `sides`: at the four sides of the view volume, too.
   bool cut(Corner (&ends)[2], bool sides) const;
   // A point is in or out.

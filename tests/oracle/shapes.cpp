@@ -115,7 +115,7 @@ void Assembly::smooth_line(const Place<int64_t> (&at)[2], const Surface& surface
 // Spec 3.3: a square of whole pixels, around the middle of the pixel the point lies in where the size is odd,
 // around the nearest corner of pixels where it is even; or a disc (spec 3.3.1).
 void Assembly::point(const Corner& corner, const Side& side) {
-  if (!volume_.holds(corner)) return;
+  if (!(corner.w > 0)) return;
   Surface surface = Surface::of_point(corner, state_.viewport);
   surface.add_depth(side.offset);
   const Place<int64_t> at = snapped_place_of(corner, state_.viewport);

@@ -1,5 +1,5 @@
-// A frame's truth on disk, one file a frame that is shown: DIR/frame_NNNNN.truth. One line
-// "halfspace-truth 1 WIDTH HEIGHT\n", then a record a pixel, bottom row first, little endian:
+// A frame's truth on disk, one file a frame that is shown and has something new: DIR/frame_NNNNN.truth. One
+// line "halfspace-truth 1 WIDTH HEIGHT\n", then a record a pixel, bottom row first, little endian:
 //   float32 r, g, b, a   levels 0 .. 255 after the last write, before rounding to bytes
 //   uint32  owner        number, from 1, of the frame's primitive that wrote the pixel last; 0: the
 //   background uint32  draw         the same of its draw float64 depth        0 .. 2^24 - 1, unrounded

@@ -68,9 +68,11 @@ struct Device::Impl {
 
   void show(ColorPlane plane) {
     shown = true;
+    const unsigned frame =
+        next_frame();  // counted as HALFSPACE_CAPTURE counts, but written only where something is new
     if (truth_directory == nullptr || *truth_directory == '\0' || !drawn) return;
     drawn = false;
-    if (!oracle::write_truth(target(), plane, truth_directory, next_frame()))
+    if (!oracle::write_truth(target(), plane, truth_directory, frame))
       std::fprintf(stderr, "halfspace oracle: cannot write to %s\n", truth_directory);
   }
 };
