@@ -20,13 +20,26 @@ struct LevelRef {
 };
 
 // Fog: with u = (distance - origin) * slope, the share of the fragment's own colour is u, e^-u or e^-(u * u).
+enum class FogCurve : uint8_t { linear, exp, exp2, exp_draft, exp2_draft };
 struct FogParams {
   int plane = 0;  // of the distance
-  FogMode mode = FogMode::exp;
+  FogCurve curve = FogCurve::exp;
   float origin = 0, slope = 1;
   float color[3] = {};    // 0..255
   double level_span = 0;  // distance over which a colour changes by a level, at least
 };
+
+// What the exact level has in double or asks for at run time. Colours in levels; filled for that level only.
+struct ExactParams {
+  double constant_color[4], env_color[4], fog_color[3];
+  double fog_origin, fog_slope, alpha_reference;
+  EnvMode env;
+  bool env_rgb, env_alpha;  // whether the texture's base format has them
+  bool env_mixes_alpha;     // GL_BLEND with an intensity texture
+};
+
+// Which planes a primitive is interpolated by, beside the bound of PlaneMaker.
+enum class PlaneRule : uint8_t { by_bound, in_float, in_double };
 
 // What holds for all fragments of a draw; values only, the code is in the program's stage list.
 struct FragmentParams {
@@ -48,12 +61,20 @@ struct FragmentParams {
   DepthState depth;  // where the stencil stage makes the depth test
   FogParams fog;
   uint32_t color_mask = ~0u;  // bytes to write, as packed
+  Accuracy accuracy;
+  PlaneRule plane_rule = PlaneRule::by_bound;
+  bool runs = false;     // perspective in runs, on primitives wider or higher than one
+  bool one_lambda = false;  // the lookup wants SetupBatch::lambda
+  ExactParams exact;
 };
 
 // Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded; kOffset holds int32;
 // kW is clip-space w. kMipKey is the mip level, or -1 for the magnification filter where that is another one; kMipBlend
-// the share of the level after.
-enum Slot { kR, kG, kB, kA, kS, kT, kOffset, kW, kTexR, kTexG, kTexB, kTexA, kLambda, kMipKey, kMipBlend, kSlotCount };
+// the share of the level after. kLow...: what the float leaves of a double (wide.inl).
+enum Slot {
+  kR, kG, kB, kA, kS, kT, kOffset, kW, kTexR, kTexG, kTexB, kTexA, kLambda, kMipKey, kMipBlend,
+  kLowR, kLowG, kLowB, kLowA, kLowS, kLowT, kLowTexR, kLowTexG, kLowTexB, kLowTexA, kLowLambda, kSlotCount
+};
 
 // Fragments of small triangles waiting to be shaded together. Filled by raster/tile/packing.inl.
 struct alignas(64) PixelQueue {

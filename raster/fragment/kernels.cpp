@@ -14,7 +14,9 @@ namespace halfspace::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+#include "raster/exact_math.inl"
 #include "raster/fragment/lanes.inl"
+#include "raster/fragment/wide.inl"
 #include "raster/fragment/stages/alpha_test.inl"
 #include "raster/fragment/stages/blend.inl"
 #include "raster/fragment/stages/color.inl"
@@ -27,10 +29,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/logic_op.inl"
 #include "raster/fragment/stages/sample.inl"
 #include "raster/fragment/stages/levels.inl"
+#include "raster/fragment/stages/runs.inl"
 #include "raster/fragment/stages/stencil.inl"
+#include "raster/fragment/stages/wide_planes.inl"
+#include "raster/fragment/stages/wide_sample.inl"
+#include "raster/fragment/stages/wide_color.inl"
 #include "raster/fragment/stages/write.inl"
 
-enum SlotGroup : unsigned { kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32, kMip = 64 };
+enum SlotGroup : unsigned {
+  kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32, kMip = 64,
+  kColorLow = 128, kCoordLow = 256, kTexelLow = 512, kLevelLow = 1024,  // what those floats leave of a double
+};
 
 template <unsigned kGroups, unsigned kGroup, int kFirst, int kCount>
 HWY_INLINE void LoadGroup(const BlockContext& c, int i, Lanes& v) {
@@ -46,6 +55,10 @@ HWY_INLINE void LoadSlots(const BlockContext& c, int i, Lanes& v) {
   LoadGroup<kGroups, kTexel, kTexR, 4>(c, i, v);
   LoadGroup<kGroups, kLevel, kLambda, 1>(c, i, v);
   LoadGroup<kGroups, kMip, kMipKey, 2>(c, i, v);
+  LoadGroup<kGroups, kColorLow, kLowR, 4>(c, i, v);
+  LoadGroup<kGroups, kCoordLow, kLowS, 2>(c, i, v);
+  LoadGroup<kGroups, kTexelLow, kLowTexR, 4>(c, i, v);
+  LoadGroup<kGroups, kLevelLow, kLowLambda, 1>(c, i, v);
 }
 
 template <unsigned kGroups, unsigned kGroup, int kFirst, int kCount>
@@ -62,6 +75,10 @@ HWY_INLINE void StoreSlots(const Lanes& v, int i, BlockContext& c) {
   StoreGroup<kGroups, kTexel, kTexR, 4>(v, i, c);
   StoreGroup<kGroups, kLevel, kLambda, 1>(v, i, c);
   StoreGroup<kGroups, kMip, kMipKey, 2>(v, i, c);
+  StoreGroup<kGroups, kColorLow, kLowR, 4>(v, i, c);
+  StoreGroup<kGroups, kCoordLow, kLowS, 2>(v, i, c);
+  StoreGroup<kGroups, kTexelLow, kLowTexR, 4>(v, i, c);
+  StoreGroup<kGroups, kLevelLow, kLowLambda, 1>(v, i, c);
 }
 
 template <StageId id>

@@ -49,10 +49,26 @@ bool blends(const BlendState& blend) {
   return blend.enabled && !(blend.src == BlendFactor::one && blend.dst == BlendFactor::zero);
 }
 
+// Stages hand on doubles: the exact level of interpolation.
+bool is_wide(const DrawState& state) { return state.accuracy.interpolation == Level::exact; }
+
+// The stage for the divide by w as the perspective axis wants it, or none of its own. Draft: primitives that take the
+// other variant than that of planes in float go in runs (SetPlanes).
+StageId divide_stage(const DrawState& state, unsigned variant, StageId runs, StageId precise) {
+  const Level level = state.accuracy.perspective;
+  if ((variant & kAffine) != 0 || level == Level::standard) return StageId::count;
+  const bool in_double = (variant & kDouble) != 0;
+  if (level == Level::draft) return in_double ? runs : StageId::count;
+  return in_double ? StageId::count : precise;
+}
+
 StageId color_stage(const DrawState& state, const VertexLayout& layout, unsigned variant) {
   using enum StageId;
-  if (layout.color < 0) return color_constant;
-  if (state.raster.flat_shading) return color_flat;
+  if (layout.color < 0) return is_wide(state) ? color_constant_wide : color_constant;
+  if (state.raster.flat_shading) return is_wide(state) ? color_flat_wide : color_flat;
+  if (is_wide(state)) return color_wide;
+  const StageId divide = divide_stage(state, variant, color_runs, color_perspective_precise);
+  if (divide != StageId::count) return divide;
   constexpr StageId kSmooth[kVariantCount] = {color_perspective, color_affine, color_perspective_double,
                                               color_affine_double};
   return kSmooth[variant];
@@ -63,9 +79,15 @@ void add_color(const DrawState& state, const VertexLayout& layout, unsigned vari
   if (!layout.given_color) list.add(color_stage(state, layout, variant));
 }
 
-StageId coord_stage(const VertexLayout& layout, unsigned variant) {
+StageId coord_stage(const DrawState& state, const VertexLayout& layout, unsigned variant) {
   using enum StageId;
-  if (layout.projective) return (variant & kDouble) != 0 ? coord_projective_double : coord_projective;
+  if (is_wide(state)) return layout.projective ? coord_projective_wide : coord_wide;
+  if (layout.projective) {
+    if ((variant & kDouble) == 0) return coord_projective;
+    return state.accuracy.perspective == Level::draft ? coord_runs_projective : coord_projective_double;
+  }
+  const StageId divide = divide_stage(state, variant, coord_runs, coord_perspective_precise);
+  if (divide != StageId::count) return divide;
   constexpr StageId kCoord[kVariantCount] = {coord_perspective, coord_affine, coord_perspective_double,
                                              coord_affine_double};
   return kCoord[variant];
@@ -77,14 +99,25 @@ bool needs_lambda(const TextureView& view) {
          view.sampler.mip == MipMode::nearest;
 }
 
-void add_lookup(const TextureView& view, const Accuracy& accuracy, StageList& list) {
+void add_level_lookup(const Accuracy& accuracy, bool projective, StageList& list) {
   using enum StageId;
-  if (needs_lambda(view)) {
-    list.add(choose_level);
-    return list.add(sample_levels);
-  }
+  if (accuracy.lod == Level::exact) list.add(projective ? lambda_projective_exact : lambda_exact);
+  else if (accuracy.lod == Level::draft) list.add(lambda_of_primitive);
+  else list.add(projective ? lambda_projective : lambda);
+  if (accuracy.filter == Level::exact) return list.add(sample_levels_exact);
+  list.add(choose_level);
+  list.add(accuracy.filter == Level::draft ? sample_levels_draft : sample_levels);
+}
+
+void add_lookup(const TextureView& view, const Accuracy& accuracy, bool projective, StageList& list) {
+  using enum StageId;
+  if (needs_lambda(view)) return add_level_lookup(accuracy, projective, list);
+  if (accuracy.filter == Level::exact) return list.add(sample_exact);
   if (view.sampler.mag == Filter::nearest) return list.add(sample_nearest);
-  if (accuracy.filter == Level::draft) return list.add(sample_linear_draft);
+  if (accuracy.filter == Level::draft) {
+    list.add(footprint_draft);
+    return list.add(sample_linear_draft);
+  }
   const bool repeat = view.sampler.wrap_s == Wrap::repeat && view.sampler.wrap_t == Wrap::repeat;
   list.add(repeat ? footprint_repeat : footprint);
   list.add(sample_linear);
@@ -116,21 +149,28 @@ StageId env_stage(EnvMode mode, BaseFormat format, bool opaque) {
 
 bool is_white(const Color& c) { return c.r == 1 && c.g == 1 && c.b == 1 && c.a == 1; }
 
+void add_wide_texture_stages(const DrawState& state, const VertexLayout& layout, unsigned variant, StageList& list) {
+  list.add(coord_stage(state, layout, variant));
+  add_lookup(*state.texture.view, state.accuracy, layout.projective, list);
+  add_color(state, layout, variant, list);
+  list.add(StageId::env_wide);
+}
+
 // GL_MODULATE by constant white is GL_REPLACE; replacing everything needs no primary colour.
 void add_texture_stages(const DrawState& state, const VertexLayout& layout, unsigned variant, StageList& list) {
+  if (is_wide(state)) return add_wide_texture_stages(state, layout, variant, list);
   const TextureView& view = *state.texture.view;
   const bool white = layout.color < 0 && !layout.given_color && is_white(layout.constant_color);
   const EnvMode mode = white && state.texture.env == EnvMode::modulate ? EnvMode::replace : state.texture.env;
   const StageId env = env_stage(mode, view.base_format, is_opaque(view));
-  StageId coord = coord_stage(layout, variant);
+  StageId coord = coord_stage(state, layout, variant);
   StageId color = color_stage(state, layout, variant);
   if (coord == StageId::coord_perspective && color == StageId::color_perspective && env != StageId::replace_rgba) {
     coord = StageId::coord_perspective_and_w;
     color = StageId::color_perspective_at_w;
   }
   list.add(coord);
-  if (needs_lambda(view)) list.add(layout.projective ? StageId::lambda_projective : StageId::lambda);
-  add_lookup(view, state.accuracy, list);
+  add_lookup(view, state.accuracy, layout.projective, list);
   if (env != StageId::replace_rgba && !layout.given_color) list.add(color);
   list.add(env);
 }
@@ -161,10 +201,20 @@ void set_texture_params(const DrawState& state, FragmentParams& params) {
   scale_color(state.texture.env_color, false, params.env_color);
 }
 
+FogCurve fog_curve(FogMode mode, Level level) {
+  const bool draft = level == Level::draft;
+  switch (mode) {
+    case FogMode::exp: return draft ? FogCurve::exp_draft : FogCurve::exp;
+    case FogMode::exp2: return draft ? FogCurve::exp2_draft : FogCurve::exp2;
+    case FogMode::linear: break;
+  }
+  return FogCurve::linear;
+}
+
 void set_fog_params(const FogState& fog, const VertexLayout& layout, FragmentParams& params) {
   FogParams& out = params.fog;
   out.plane = 2 + layout.fog;
-  out.mode = fog.mode;
+  out.curve = fog_curve(fog.mode, params.accuracy.fog);
   if (fog.mode == FogMode::linear) {
     // With start == end the fog is a wall: the largest float for its slope.
     const double span = static_cast<double>(fog.end) - static_cast<double>(fog.start);
@@ -180,6 +230,46 @@ void set_fog_params(const FogState& fog, const VertexLayout& layout, FragmentPar
   out.level_span = 1 / (255.0 * std::max(std::fabs(static_cast<double>(out.slope)), 1e-30));
 }
 
+// A colour at the exact level: on bytes of a product by 255 nothing is lost.
+template <size_t kCount>
+void scale_exactly(const Color& color, double (&out)[kCount]) {
+  const float c[4] = {color.r, color.g, color.b, color.a};
+  for (size_t k = 0; k < kCount; ++k) out[k] = static_cast<double>(c[k]) * 255.0;
+}
+
+ExactParams make_exact_params(const DrawState& state, const VertexLayout& layout) {
+  ExactParams out{};
+  scale_exactly(layout.constant_color, out.constant_color);
+  scale_exactly(state.texture.env_color, out.env_color);
+  scale_exactly(state.fog.color, out.fog_color);
+  const double start = static_cast<double>(state.fog.start), end = static_cast<double>(state.fog.end);
+  const bool linear = state.fog.mode == FogMode::linear;
+  out.fog_origin = linear ? end : 0;
+  out.fog_slope = static_cast<double>(state.fog.density);
+  if (linear) out.fog_slope = end != start ? std::clamp(1 / (start - end), -kSteepest, kSteepest) : -kSteepest;
+  out.alpha_reference = std::clamp(static_cast<double>(state.alpha_test.reference), 0.0, 1.0) * 255.0;
+  if (state.texture.view == nullptr) return out;
+  const BaseFormat format = state.texture.view->base_format;
+  out.env = state.texture.env;
+  out.env_rgb = format != BaseFormat::alpha;
+  out.env_alpha = format != BaseFormat::rgb && format != BaseFormat::luminance;
+  out.env_mixes_alpha = out.env == EnvMode::blend && format == BaseFormat::intensity;
+  return out;
+}
+
+// What the accuracy asks of set-up and of stages that look at the parameters.
+void set_accuracy_params(const DrawState& state, const VertexLayout& layout, FragmentParams& params) {
+  const Accuracy& accuracy = state.accuracy;
+  params.accuracy = accuracy;
+  if (accuracy == Accuracy()) return;
+  if (accuracy.interpolation == Level::draft) params.plane_rule = PlaneRule::in_float;
+  if (accuracy.interpolation == Level::exact) params.plane_rule = PlaneRule::in_double;
+  params.runs = accuracy.perspective == Level::draft && accuracy.interpolation != Level::exact;
+  params.one_lambda = accuracy.lod == Level::draft && state.texture.view != nullptr && layout.tex_coord >= 0 &&
+                      needs_lambda(*state.texture.view);
+  if (is_wide(state) || accuracy.fog == Level::exact) params.exact = make_exact_params(state, layout);
+}
+
 FragmentParams make_params(const DrawState& state, const VertexLayout& layout, ColorFormat format) {
   FragmentParams params;
   params.color_plane = 2 + layout.color;
@@ -187,12 +277,14 @@ FragmentParams make_params(const DrawState& state, const VertexLayout& layout, C
   params.rounds_to_bytes = format == ColorFormat::rgba8;
   scale_color(layout.constant_color, params.rounds_to_bytes, params.constant_color);
   params.alpha_func = state.alpha_test.func;
-  params.alpha_reference = std::clamp(state.alpha_test.reference, 0.0f, 1.0f) * 255.0f;
+  // Like a colour: an alpha that equals the reference stays equal.
+  params.alpha_reference = color_level(std::clamp(state.alpha_test.reference, 0.0f, 1.0f), params.rounds_to_bytes);
   params.blend_src = state.blend.src;
   params.blend_dst = state.blend.dst;
   params.logic_op = state.logic_op.op;
   params.stencil = state.stencil;
   params.depth = state.depth;
+  set_accuracy_params(state, layout, params);
   if (layout.fog >= 0) set_fog_params(state.fog, layout, params);
   params.color_mask = byte_mask(state.color_mask);
   if (state.texture.view != nullptr) set_texture_params(state, params);
@@ -223,8 +315,11 @@ void add_depth_and_stencil(const DrawState& state, StageList& list) {
   else if (depth) list.add(depth_stage(state.depth));
 }
 
-StageId fog_stage(unsigned variant) {
+StageId fog_stage(const DrawState& state, unsigned variant) {
   using enum StageId;
+  if (is_wide(state) || state.accuracy.fog == Level::exact) return fog_wide;
+  const StageId divide = divide_stage(state, variant, fog_runs, fog_perspective_precise);
+  if (divide != StageId::count) return divide;
   constexpr StageId kFog[kVariantCount] = {fog_perspective, fog_affine, fog_perspective_double, fog_affine_double};
   return kFog[variant];
 }
@@ -243,10 +338,12 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
     else
       add_color(state, layout, variant, list);
   }
-  if (layout.fog >= 0 && (writes_color(state) || alpha_test)) list.add(fog_stage(variant));
-  if (layout.coverage && (writes_color(state) || alpha_test)) list.add(StageId::coverage);
+  if (layout.fog >= 0 && (writes_color(state) || alpha_test)) list.add(fog_stage(state, variant));
+  const bool wide = is_wide(state);
+  if (layout.coverage && (writes_color(state) || alpha_test))
+    list.add(wide ? StageId::coverage_wide : StageId::coverage);
   if (alpha_test) {
-    list.add(StageId::alpha_test);
+    list.add(wide ? StageId::alpha_test_wide : StageId::alpha_test);
     add_depth_and_stencil(state, list);
   }
   list.tail = list.count;
@@ -254,8 +351,13 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
   const bool rgba8 = format == ColorFormat::rgba8;
   if (state.logic_op.enabled) {
     if (has_logic_op(state.logic_op)) list.add(rgba8 ? StageId::logic_op_rgba8 : StageId::logic_op_rgba32f);
-  } else if (blends(state.blend)) list.add(rgba8 ? StageId::blend_rgba8 : StageId::blend_rgba32f);
-  if (!rgba8) list.add(StageId::write_rgba32f);
+  } else if (blends(state.blend)) {
+    if (wide) list.add(rgba8 ? StageId::blend_rgba8_wide : StageId::blend_rgba32f_wide);
+    else list.add(rgba8 ? StageId::blend_rgba8 : StageId::blend_rgba32f);
+  }
+  // A logic op leaves whole levels in the floats.
+  if (wide && !has_logic_op(state.logic_op)) list.add(rgba8 ? StageId::write_rgba8_wide : StageId::write_rgba32f_wide);
+  else if (!rgba8) list.add(StageId::write_rgba32f);
   else list.add(state.color_mask.all() ? StageId::write_rgba8 : StageId::write_rgba8_masked);
   return list;
 }

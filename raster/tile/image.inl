@@ -37,10 +37,16 @@ HWY_INLINE uint64_t BitmapMask(const ImageBlock& b) {
   return mask;
 }
 
-HWY_INLINE void TakeColors(const ImageBlock& b, bool to_bytes, BlockContext& c) {
+HWY_INLINE void TakeColors(const ImageBlock& b, const FragmentParams& params, BlockContext& c) {
+  const bool wide = params.accuracy.interpolation == Level::exact;
   b.ForEach([&](int i, size_t column, size_t row) {
     const float* color = b.image.color + (row * b.image.row_elements + column) * 4;
-    for (int k = 0; k < 4; ++k) c.slot[kR + k][i] = color_level(color[k], to_bytes);
+    for (int k = 0; k < 4; ++k) {
+      const double exact = static_cast<double>(color[k]) * 255.0;
+      const float level = wide ? static_cast<float>(exact) : color_level(color[k], params.rounds_to_bytes);
+      c.slot[kR + k][i] = level;
+      if (wide) c.slot[kLowR + k][i] = static_cast<float>(exact - static_cast<double>(level));
+    }
   });
 }
 
@@ -60,7 +66,7 @@ HWY_INLINE void RunImageBlock(TileContext& t, const ImageBlock& b, int block) {
       mask = BitmapMask(b);
       break;
     case PixelKind::color:
-      TakeColors(b, t.program->params.rounds_to_bytes, t.block);
+      TakeColors(b, t.program->params, t.block);
       break;
     case PixelKind::depth: {
       uint32_t* depth = t.given_depth;

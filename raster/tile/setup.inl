@@ -179,6 +179,18 @@ HWY_INLINE void TakeWholeTurns(VD value[3]) {
   for (int k = 0; k < 3; ++k) value[k] = hn::Sub(value[k], turns);
 }
 
+// The accuracy axes' say in which planes a primitive is interpolated by.
+HWY_NOINLINE void ApplyPlaneRule(const FragmentParams& params, PlaneMaker& maker) {
+  const DD d;
+  if (params.plane_rule == PlaneRule::in_double) maker.needs_double = hn::Eq(maker.scale, maker.scale);
+  if (params.plane_rule == PlaneRule::in_float) maker.needs_double = hn::Ne(maker.scale, maker.scale);
+  if (!params.runs) return;
+  // Divided in runs, by planes in double at their ends: what is larger than a run.
+  const VD run = hn::Set(d, 16.0);
+  const auto large = hn::Or(hn::Gt(maker.width, run), hn::Gt(maker.height, run));
+  maker.needs_double = hn::Or(maker.needs_double, hn::AndNot(maker.affine, large));
+}
+
 HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, const FragmentParams& params,
                           const CornerVectors& v, int i, SetupBatch& out) {
   const DD d;
@@ -209,6 +221,7 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
     for (int k = 0; k < 3; ++k) value[k] = LoadFloat(in.attribute[layout.fog][k] + i);
     maker.StoreAttribute(value, 2 + layout.fog, i, false, hn::Set(d, kColorTolerance * params.fog.level_span), out);
   }
+  if (HWY_UNLIKELY(params.plane_rule != PlaneRule::by_bound || params.runs)) ApplyPlaneRule(params, maker);
   // Variant bits by way of integers: one small number a lane.
   const VD bits = hn::Add(hn::IfThenElseZero(maker.affine, hn::Set(d, static_cast<double>(kAffine))),
                           hn::IfThenElseZero(maker.needs_double, hn::Set(d, static_cast<double>(kDouble))));
@@ -241,7 +254,37 @@ HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, con
   const VertexLayout& layout = draw.vertices.layout;
   const int place = ref.back_facing && layout.back_color >= 0 ? layout.back_color : layout.color;
   const float* color = Attributes(Head(draw.vertices, layout.stride(), vertex)) + place;
-  for (int k = 0; k < 4; ++k) out.flat[k][lane] = color_level(color[k], draw.program->params.rounds_to_bytes);
+  for (int k = 0; k < 4; ++k) {
+    out.flat[k][lane] = color_level(color[k], draw.program->params.rounds_to_bytes);
+    out.exact_flat[k][lane] = static_cast<double>(color[k]) * 255.0;
+  }
+}
+
+// The draft level's lambda (spec 3.8.8) of a whole primitive: at the middle of its corners.
+HWY_INLINE float LambdaOf(const SetupInput& in, const FragmentParams& params, const VertexLayout& layout, int lane,
+                          int32_t center_x, int32_t center_y, const SetupBatch& s) {
+  constexpr double kThird = 1.0 / (3 * kSubpixelScale);
+  const int64_t sum_x = int64_t{in.x[0][lane]} + in.x[1][lane] + in.x[2][lane] - 3 * int64_t{center_x};
+  const int64_t sum_y = int64_t{in.y[0][lane]} + in.y[1][lane] + in.y[2][lane] - 3 * int64_t{center_y};
+  const double x = static_cast<double>(sum_x) * kThird + s.anchor_x[lane];
+  const double y = static_cast<double>(sum_y) * kThird + s.anchor_y[lane];
+  const int first = params.tex_plane, divisor = layout.projective ? first + 2 : 1;
+  const bool affine = !layout.projective && (s.variant[lane] & kAffine) != 0;
+  const auto at = [&](int plane) HWY_ATTR {
+    return (s.f0[plane][lane] + s.dfdy[plane][lane] * y) + s.dfdx[plane][lane] * x;
+  };
+  const double q = affine ? 1 : at(divisor);
+  double x2 = 0, y2 = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const int p = first + axis;
+    const double value = affine ? 0 : at(p) / q;
+    const double gx = (s.dfdx[p][lane] - (affine ? 0 : value * s.dfdx[divisor][lane])) / q * params.lod_scale[axis];
+    const double gy = (s.dfdy[p][lane] - (affine ? 0 : value * s.dfdy[divisor][lane])) / q * params.lod_scale[axis];
+    x2 += gx * gx;
+    y2 += gy * gy;
+  }
+  const double rho2 = x2 > y2 ? x2 : y2;
+  return static_cast<float>(0.5 * ExactLog2(rho2 > 1e-30 ? (rho2 < 1e30 ? rho2 : 1e30) : 1e-30));
 }
 
 // Moves a filled polygon's depth (spec 3.5.5). Lines and points of polygons bring their offset along.
@@ -286,11 +329,13 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
   }
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
   const bool offset = draw.shape.offset_fill;
-  if (!any_cut && !flat && !offset) return;
+  const bool one_lambda = params.one_lambda;
+  if (!any_cut && !flat && !offset && !one_lambda) return;
   for (int lane = 0; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
     if (ref.cut) CopyPlanes(segment, segment.cut_triangles.data()[ref.v[0]], layout, lane, center_x, center_y, out);
     if (flat) SetFlatColor(segment, draw, ref, lane, out);
+    if (one_lambda) out.lambda[lane] = LambdaOf(in, params, layout, lane, center_x, center_y, out);
     if (offset && ref.kind <= PrimitiveKind::smooth_triangle) OffsetDepth(draw.state->polygon, lane, out);
   }
 }

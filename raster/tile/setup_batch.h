@@ -28,6 +28,9 @@ struct alignas(64) SetupBatch {
   alignas(64) float f0_f[kMaxPlanes][kSetupLanes], dfdx_f[kMaxPlanes][kSetupLanes], dfdy_f[kMaxPlanes][kSetupLanes];
   alignas(64) float flat[4][kSetupLanes];  // colour of the provoking vertex, 0..255
   uint8_t variant[kSetupLanes];
+  // Where accuracy calls for them: the flat colour unrounded; one lambda for the primitive.
+  double exact_flat[4][kSetupLanes];
+  float lambda[kSetupLanes];
 };
 
 // 255 * c for a colour that is not interpolated, c in [0, 1]. `to_bytes`: the nearest float that rounds to the same byte

@@ -17,6 +17,7 @@ namespace halfspace::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+#include "raster/exact_math.inl"
 #include "raster/tile/setup_gather.inl"
 #include "raster/tile/setup.inl"
 #include "raster/tile/triangle.inl"

@@ -264,14 +264,54 @@ void small_mixed_triangles(SceneMaker& m, Scene& scene) {
   }
 }
 
+// Every level of all axes and of each alone, on whatever an axis may touch.
 void accuracies(SceneMaker& m, Scene& scene) {
+  std::vector<Accuracy> settings;
   for (Level level : {Level::draft, Level::standard, Level::exact}) {
+    settings.push_back(Accuracy::all(level));
+    for (const AccuracyAxis& axis : kAccuracyAxes) {
+      settings.push_back({});
+      settings.back().*axis.level = level;
+      settings.push_back(Accuracy::all(level == Level::draft ? Level::exact : Level::draft));
+      settings.back().*axis.level = level;
+    }
+  }
+  for (size_t i = 0; i < settings.size(); ++i) {
     for (Filter filter : {Filter::nearest, Filter::linear}) {
-      SceneDraw draw{m.state(), Primitive::triangles, m.vertices(9, 1, 30), {}};
-      draw.state.accuracy = Accuracy::all(level);
-      draw.state.texture.view =
-          m.noise(BaseFormat::rgba, 32, 32, sampler_of(filter, Wrap::repeat, MipMode::linear));
-      scene.draws.push_back(draw);
+      // Large and small, in perspective and not.
+      const int count = i % 4 == 3 ? 300 : 6;
+      SceneDraw draw{m.state(), Primitive::triangles, m.vertices(count, 1, i % 5 == 4 ? 1.0f : 20.0f), {}};
+      if (count > 6) {
+        for (size_t k = 0; k + 2 < draw.vertices.size(); k += 3) {
+          for (size_t n = 1; n < 3; ++n) {
+            Vertex& v = draw.vertices[k + n];
+            const Vertex& first = draw.vertices[k];
+            v.w = first.w;
+            v.x = first.x + first.w * m.random().real(-0.05f, 0.05f);
+            v.y = first.y + first.w * m.random().real(-0.05f, 0.05f);
+            v.z = first.z;
+          }
+        }
+      }
+      DrawState& state = draw.state;
+      state.accuracy = settings[i];
+      state.depth.test = i % 3 != 0;
+      state.raster.flat_shading = i % 7 == 6;
+      if (i % 3 == 1) state.fog = {true, FogMode(i % 9 / 3), {0.1f, 0.6f, 0.9f, 0}, 0.05f, 1, 30};
+      if (i % 4 == 1) state.blend = {true, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
+      if (i % 5 == 2) state.alpha_test = {true, CompareFunc::greater, 0.3f};
+      state.polygon.smooth = i % 6 == 5;
+      const MipMode mip = i % 2 == 0 ? MipMode::linear : (i % 4 == 1 ? MipMode::none : MipMode::nearest);
+      if (i % 8 != 7) {
+        state.texture.view = m.noise(i % 6 == 2 ? BaseFormat::intensity : BaseFormat::rgba, i % 2 ? 32 : 20, 32,
+                                     sampler_of(filter, Wrap(i % 3), mip));
+        state.texture.env = EnvMode(i % 4);
+        state.texture.env_color = m.color();
+        if (i % 5 == 0) {
+          for (Vertex& v : draw.vertices) v.q = m.random().real(0.5f, 2);
+        }
+      }
+      scene.draws.push_back(std::move(draw));
     }
   }
 }

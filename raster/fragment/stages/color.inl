@@ -20,6 +20,9 @@ struct ColorFlat {
   }
 };
 
+// Beside the bits of Variant, as a template's argument: planes in float, but the divide in double.
+inline constexpr unsigned kPreciseDivide = 4;
+
 // kVariant: bits of Variant. Perspective-correct: colour/w over 1/w, one divide a pixel; kAtW: none, w is there already.
 template <unsigned kVariant, bool kAtW = false>
 struct ColorSmooth {
@@ -41,7 +44,13 @@ struct ColorSmooth {
 
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
-    if constexpr (kPacks) {
+    if constexpr ((kVariant & kPreciseDivide) != 0) {
+      const VD inv_w = PromoteGroup(once.inv_w.At(i));
+      v.slot[kR] = InDouble(PromoteGroup(once.r.At(i)), inv_w);
+      v.slot[kG] = InDouble(PromoteGroup(once.g.At(i)), inv_w);
+      v.slot[kB] = InDouble(PromoteGroup(once.b.At(i)), inv_w);
+      v.slot[kA] = InDouble(PromoteGroup(once.a.At(i)), inv_w);
+    } else if constexpr (kPacks) {
       VF w = hn::Zero(DF());
       if constexpr (kAtW) w = v.slot[kW];
       else if constexpr (kDivides) w = hn::Div(hn::Set(DF(), 1.0f), once.inv_w.At(i));

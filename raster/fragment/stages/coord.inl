@@ -18,7 +18,11 @@ struct Coord {
 
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
-    if constexpr (!kPacks) {
+    if constexpr ((kVariant & kPreciseDivide) != 0) {
+      const VD divisor = PromoteGroup(once.divisor.At(i));
+      v.slot[kS] = InDouble(PromoteGroup(once.s.At(i)), divisor, c.params->sampler.wrap_s);
+      v.slot[kT] = InDouble(PromoteGroup(once.t.At(i)), divisor, c.params->sampler.wrap_t);
+    } else if constexpr (!kPacks) {
       const VD divisor = once.divisor.At(i);
       v.slot[kS] = InDouble(once.s.At(i), divisor, c.params->sampler.wrap_s);
       v.slot[kT] = InDouble(once.t.At(i), divisor, c.params->sampler.wrap_t);

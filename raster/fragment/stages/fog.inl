@@ -15,6 +15,44 @@ HWY_INLINE VF ExpMinus(VF x) {
   return hn::Mul(fraction, hn::BitCast(d, hn::ShiftLeft<23>(exponent)));
 }
 
+// The draft level's: a cubic in place of the quintic, to within 7.4e-5.
+HWY_INLINE VF ExpMinusDraft(VF x) {
+  const DF d;
+  const DI di;
+  VF t = hn::Mul(x, hn::Set(d, 1.44269504f));
+  t = hn::IfThenElse(hn::Lt(t, hn::Set(d, 126.0f)), t, hn::Set(d, 126.0f));
+  const VI whole = TruncateInRange(t);
+  const VF rest = hn::Sub(t, hn::ConvertTo(d, whole));
+  VF sum = hn::Add(hn::Mul(rest, hn::Set(d, -0.0396224625f)), hn::Set(d, 0.231299865f));
+  sum = hn::Add(hn::Mul(sum, rest), hn::Set(d, -0.6916774025f));
+  const VF fraction = hn::Add(hn::Mul(sum, rest), hn::Set(d, 1.0f));
+  // Into the exponent of a number in (1/2, 1] at once.
+  return hn::BitCast(d, hn::Sub(hn::BitCast(di, fraction), hn::ShiftLeft<23>(whole)));
+}
+
+// The share of the fragment's own colour. depth: (distance - origin) * slope.
+HWY_INLINE VF FogFactor(FogCurve curve, VF depth) {
+  const DF d;
+  const VF x = hn::IfThenElseZero(hn::Gt(depth, hn::Zero(d)), depth);
+  switch (curve) {
+    case FogCurve::exp: return ExpMinus(x);
+    case FogCurve::exp2: return ExpMinus(hn::Mul(x, x));
+    case FogCurve::linear: break;
+    case FogCurve::exp_draft: return ExpMinusDraft(x);
+    case FogCurve::exp2_draft: return ExpMinusDraft(hn::Mul(x, x));
+  }
+  return hn::IfThenElse(hn::Lt(x, hn::Set(d, 1.0f)), x, hn::Set(d, 1.0f));
+}
+
+HWY_INLINE void MixFog(const FogParams& fog, VF f, Lanes& v) {
+  const DF d;
+  const VF rest = hn::Sub(hn::Set(d, 1.0f), f);
+  for (int k = 0; k < 3; ++k) {
+    VF& color = v.slot[kR + k];
+    color = hn::Add(hn::Mul(f, color), hn::Mul(rest, hn::Set(d, fog.color[k])));
+  }
+}
+
 // kVariant: bits of Variant.
 template <unsigned kVariant>
 struct Fog {
@@ -31,46 +69,32 @@ struct Fog {
 
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
-    const DF d;
     const FogParams& fog = c.params->fog;
-    const VF f = Factor(fog.mode, Depth(fog, once, i));
-    const VF rest = hn::Sub(hn::Set(d, 1.0f), f);
-    for (int k = 0; k < 3; ++k) {
-      VF& color = v.slot[kR + k];
-      color = hn::Add(hn::Mul(f, color), hn::Mul(rest, hn::Set(d, fog.color[k])));
-    }
+    MixFog(fog, FogFactor(fog.curve, Depth(fog, once, i)), v);
   }
 
  private:
   // (distance - origin) * slope.
   template <class Planes>
   static HWY_INLINE VF Depth(const FogParams& fog, const Planes& once, int i) {
-    if constexpr (kPacks) {
+    if constexpr ((kVariant & kPreciseDivide) != 0) {
+      return InDouble(fog, PromoteGroup(once.distance.At(i)), PromoteGroup(once.inv_w.At(i)));
+    } else if constexpr (kPacks) {
       const DF d;
       VF distance = once.distance.At(i);
       if constexpr (kDivides) distance = hn::Mul(distance, hn::Div(hn::Set(d, 1.0f), once.inv_w.At(i)));
       return hn::Mul(hn::Sub(distance, hn::Set(d, fog.origin)), hn::Set(d, fog.slope));
     } else {
-      const DD d;
-      VD distance = once.distance.At(i);
-      const VD inv_w = once.inv_w.At(i);
-      for (int p = 0; p < kDoubleParts; ++p) {
-        if constexpr (kDivides) distance.part[p] = hn::Div(distance.part[p], inv_w.part[p]);
-        distance.part[p] = hn::Mul(hn::Sub(distance.part[p], hn::Set(d, static_cast<double>(fog.origin))),
-                                   hn::Set(d, static_cast<double>(fog.slope)));
-      }
-      return DemoteGroup(DF(), distance);
+      return InDouble(fog, once.distance.At(i), once.inv_w.At(i));
     }
   }
-
-  static HWY_INLINE VF Factor(FogMode mode, VF depth) {
-    const DF d;
-    const VF x = hn::IfThenElseZero(hn::Gt(depth, hn::Zero(d)), depth);
-    switch (mode) {
-      case FogMode::exp: return ExpMinus(x);
-      case FogMode::exp2: return ExpMinus(hn::Mul(x, x));
-      case FogMode::linear: break;
+  static HWY_INLINE VF InDouble(const FogParams& fog, VD distance, const VD& inv_w) {
+    const DD d;
+    for (int p = 0; p < kDoubleParts; ++p) {
+      if constexpr (kDivides) distance.part[p] = hn::Div(distance.part[p], inv_w.part[p]);
+      distance.part[p] = hn::Mul(hn::Sub(distance.part[p], hn::Set(d, static_cast<double>(fog.origin))),
+                                 hn::Set(d, static_cast<double>(fog.slope)));
     }
-    return hn::IfThenElse(hn::Lt(x, hn::Set(d, 1.0f)), x, hn::Set(d, 1.0f));
+    return DemoteGroup(DF(), distance);
   }
 };

@@ -69,6 +69,12 @@ struct Lambda {
       v.slot[kLambda] = once.lambda;
       return;
     }
+    v.slot[kLambda] = HalfLog2(DemoteGroup(DF(), SquareOfRho(once, i)));
+  }
+
+  // Where the divisor is not constant.
+  template <class Terms>
+  static HWY_INLINE VD SquareOfRho(const Terms& once, int i) {
     constexpr int kParts = BlockPlaneDouble::kParts;
     VD rho2 = once.divisor.At(i);
     for (int p = 0; p < kDoubleParts; ++p) {
@@ -77,7 +83,7 @@ struct Lambda {
       const auto q2 = hn::Mul(rho2.part[p], rho2.part[p]);
       rho2.part[p] = hn::Div(hn::Max(row, columns), hn::Mul(q2, q2));
     }
-    v.slot[kLambda] = HalfLog2(DemoteGroup(DF(), rho2));
+    return rho2;
   }
 
  private:
@@ -85,5 +91,35 @@ struct Lambda {
     const DF d;
     rho2 = hn::Min(hn::Max(rho2, hn::Set(d, 1e-30f)), hn::Set(d, 1e30f));
     return hn::Mul(hn::Set(d, 0.5f), Log2(rho2));
+  }
+};
+
+// The exact level: the logarithm in double, and what a float loses of it handed on.
+template <bool kProjective>
+struct LambdaExact {
+  static constexpr bool kKills = false, kPacks = false;
+  template <class L>
+  using Once = typename Lambda<kProjective>::template Once<L>;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
+    alignas(64) double rho2[kMaxLanes];
+    const double constant = once.along_x[0] > once.along_y[0] ? once.along_x[0] : once.along_y[0];
+    StoreWide(once.constant ? SetWide(constant) : Lambda<kProjective>::SquareOfRho(once, i), rho2);
+    for (int j = 0; j < kLanes; ++j) {
+      const double held = rho2[j] > 1e-30 ? (rho2[j] < 1e30 ? rho2[j] : 1e30) : 1e-30;
+      rho2[j] = 0.5 * ExactLog2(held);
+    }
+    PutWide(LoadWide(rho2), kLambda, v);
+  }
+};
+
+// The draft level: one lambda for all of a primitive, from set-up.
+struct LambdaOfPrimitive {
+  static constexpr bool kKills = false, kPacks = false;
+  template <class L>
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
+    v.slot[kLambda] = hn::Set(DF(), c.setup->lambda[c.lane]);
   }
 };

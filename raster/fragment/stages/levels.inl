@@ -27,6 +27,8 @@ struct ChooseLevel {
   }
 };
 
+// kBytes: the draft level's filter.
+template <bool kBytes>
 struct SampleLevels {
   static constexpr bool kKills = false, kPacks = false;
 
@@ -64,8 +66,8 @@ struct SampleLevels {
       const DF d;
       const Sampler& sampler = c.params->sampler;
       for (int i = 0; i < kBlockPixels; i += kLanes) {
-        const Place place = FindPlace(c.params->levels[level + n], sampler.wrap_s, sampler.wrap_t,
-                                      hn::Load(d, c.slot[kS] + i), hn::Load(d, c.slot[kT] + i));
+        const Place place = PlaceOn(c.params->levels[level + n], sampler,
+                                    hn::Load(d, c.slot[kS] + i), hn::Load(d, c.slot[kT] + i));
         hn::Store(place.offset, DI(), offset[n] + i);
         hn::Store(place.wu, d, wu[n] + i);
         hn::Store(place.wv, d, wv[n] + i);
@@ -84,6 +86,14 @@ struct SampleLevels {
   }
 
  private:
+  static HWY_INLINE Place PlaceOn(const LevelRef& level, const Sampler& sampler, VF s, VF t) {
+    return kBytes ? FindPlaceDraft(level, sampler.wrap_s, sampler.wrap_t, s, t)
+                  : FindPlace(level, sampler.wrap_s, sampler.wrap_t, s, t);
+  }
+  static HWY_INLINE void LookPlace(const LevelRef& level, const LaneOffsets& offsets, VF wu, VF wv, Lanes& v) {
+    if constexpr (kBytes) LookLinearDraft(level, offsets, wu, wv, v);
+    else LookLinear(level, offsets, wu, wv, v);
+  }
   static HWY_INLINE int LevelOf(int key) { return key < 0 ? 0 : key; }
   static HWY_INLINE bool IsLinear(const FragmentParams& p, int key) {
     return (key < 0 ? p.sampler.mag : p.sampler.min) == Filter::linear;
@@ -92,7 +102,7 @@ struct SampleLevels {
   template <class Places>
   static HWY_INLINE void LookPlaced(const FragmentParams& p, const Places& places, int n, int i, Lanes& v) {
     const DF d;
-    LookLinear(p.levels[places.level + n], LaneOffsets(places.offset[n] + i), hn::Load(d, places.wu[n] + i),
+    LookPlace(p.levels[places.level + n], LaneOffsets(places.offset[n] + i), hn::Load(d, places.wu[n] + i),
                hn::Load(d, places.wv[n] + i), v);
   }
 
@@ -129,7 +139,7 @@ struct SampleLevels {
   static HWY_INLINE void LookAt(const FragmentParams& p, int index, bool linear, Lanes& v) {
     const LevelRef& level = p.levels[index];
     if (!linear) return LookNearest(level, p.sampler, v.slot[kS], v.slot[kT], v);
-    const Place place = FindPlace(level, p.sampler.wrap_s, p.sampler.wrap_t, v.slot[kS], v.slot[kT]);
-    LookLinear(level, LaneOffsets(place.offset), place.wu, place.wv, v);
+    const Place place = PlaceOn(level, p.sampler, v.slot[kS], v.slot[kT]);
+    LookPlace(level, LaneOffsets(place.offset), place.wu, place.wv, v);
   }
 };

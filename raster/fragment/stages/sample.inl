@@ -22,10 +22,11 @@ HWY_INLINE VF NearestTexel(VF s, VF size, Wrap wrap) {
 }
 
 // Index in [lowest, size - 1] whatever u is: out-of-range and NaN lanes are dead, but their loads must be safe.
-HWY_INLINE VI TexelIndex(VF floor_u, VI size, int lowest) {
+HWY_INLINE VI HeldIndex(VI index, VI size, int lowest) {
   const DI d;
-  return hn::Min(hn::Max(TruncateInRange(floor_u), hn::Set(d, lowest)), hn::Sub(size, hn::Set(d, 1)));
+  return hn::Min(hn::Max(index, hn::Set(d, lowest)), hn::Sub(size, hn::Set(d, 1)));
 }
+HWY_INLINE VI TexelIndex(VF floor_u, VI size, int lowest) { return HeldIndex(TruncateInRange(floor_u), size, lowest); }
 
 HWY_INLINE void UnpackTexels(VU texel, Lanes& v) {
   const DF d;
@@ -238,51 +239,82 @@ struct SampleLinear {
 
 // Draft: the filter llvmpipe has by default. Coordinates rounded to 1/256 texel, 8-bit weights, x before y, each
 // step rounded: a + ((f * (b - a) + 128) >> 8).
-struct SampleLinearDraft {
+
+// Texel coordinate minus one half, in 1/256.
+HWY_INLINE VI FixedCoord(VF s, VF size, Wrap wrap) {
+  const VF u = TexelCoord(s, size, wrap, 0.0f);
+  return hn::Sub(hn::NearestInt(hn::Mul(u, hn::Set(DF(), 256.0f))), hn::Set(DI(), 128));
+}
+
+// As FindPlace; the weights' floats hold integers, in 1/256.
+HWY_INLINE Place FindPlaceDraft(const LevelRef& level, Wrap wrap_s, Wrap wrap_t, VF s, VF t) {
+  const DF d;
+  const DI di;
+  const VI x = FixedCoord(s, hn::Set(d, level.width), wrap_s), y = FixedCoord(t, hn::Set(d, level.height), wrap_t);
+  const VI i = HeldIndex(hn::ShiftRight<8>(x), hn::Set(di, level.width_i), -1);
+  const VI j = HeldIndex(hn::ShiftRight<8>(y), hn::Set(di, level.height_i), -1);
+  const VI byte = hn::Set(di, 255);
+  return {TexelOffset(level, i, j), hn::BitCast(d, hn::And(x, byte)), hn::BitCast(d, hn::And(y, byte))};
+}
+
+// The step on two channels a lane, bytes 0 and 2. The products wrap round at 16 bits, and only their bits 8 to 15 count.
+HWY_INLINE VU MixBytes(VU a, VU b, VU weight) {
+#if HWY_TARGET == HWY_SCALAR
+  const auto from = static_cast<int32_t>(hn::GetLane(a)), to = static_cast<int32_t>(hn::GetLane(b));
+  const auto f = static_cast<int32_t>(hn::GetLane(weight) & 255u);
+  const auto mix = [f](int32_t x, int32_t y) { return x + ((f * (y - x) + 128) >> 8); };
+  return hn::Set(DU(), static_cast<uint32_t>(mix(from & 255, to & 255) | mix(from >> 16, to >> 16) << 16));
+#else
+  const hn::Repartition<uint16_t, DU> d;
+  const auto x = hn::BitCast(d, a), y = hn::BitCast(d, b);
+  const auto step = hn::ShiftRight<8>(hn::Add(hn::Mul(hn::BitCast(d, weight), hn::Sub(y, x)), hn::Set(d, 128)));
+  return hn::BitCast(DU(), hn::And(hn::Add(x, step), hn::Set(d, 255)));
+#endif
+}
+
+HWY_INLINE void LookLinearDraft(const LevelRef& level, const LaneOffsets& offsets, VF wu, VF wv, Lanes& v) {
+  const DF d;
+  const DI di;
+  const DU du;
+  const Footprints texels = LoadFootprints(offsets, level.texels, level.texels + level.pitch);
+  const VU pair = hn::Set(du, 0x00ff00ffu);
+  VU x = hn::BitCast(du, wu), y = hn::BitCast(du, wv);
+  x = hn::Or(x, hn::ShiftLeft<16>(x));
+  y = hn::Or(y, hn::ShiftLeft<16>(y));
+  const auto even = [&](VU t) HWY_ATTR { return hn::And(t, pair); };
+  const auto odd = [&](VU t) HWY_ATTR { return hn::And(hn::ShiftRight<8>(t), pair); };
+  const VU rb = MixBytes(MixBytes(even(texels.low.first), even(texels.low.second), x),
+                         MixBytes(even(texels.high.first), even(texels.high.second), x), y);
+  const VU ga = MixBytes(MixBytes(odd(texels.low.first), odd(texels.low.second), x),
+                         MixBytes(odd(texels.high.first), odd(texels.high.second), x), y);
+  const VU byte = hn::Set(du, 255u);
+  v.slot[kTexR] = hn::ConvertTo(d, hn::BitCast(di, hn::And(rb, byte)));
+  v.slot[kTexG] = hn::ConvertTo(d, hn::BitCast(di, hn::And(ga, byte)));
+  v.slot[kTexB] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(rb)));
+  v.slot[kTexA] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(ga)));
+}
+
+struct FootprintDraft {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
-    const DF d;
-    const DI di;
-    const LevelRef& level = c.params->levels[0];
-    const VI x = Fixed(v.slot[kS], level.width, c.params->sampler.wrap_s);
-    const VI y = Fixed(v.slot[kT], level.height, c.params->sampler.wrap_t);
-    alignas(64) int32_t xs[kMaxLanes], ys[kMaxLanes];
-    alignas(64) uint32_t texels[kMaxLanes] = {};
-    hn::Store(x, di, xs);
-    hn::Store(y, di, ys);
-    for (unsigned todo = MaskBits(v.live); todo != 0; todo &= todo - 1) {
-      const int j = __builtin_ctz(todo);
-      texels[j] = Lookup(level, xs[j], ys[j]);
-    }
-    UnpackTexels(hn::Load(DU(), texels), v);
-    (void)d;
+    const Sampler& sampler = c.params->sampler;
+    const Place place =
+        FindPlaceDraft(c.params->levels[0], sampler.wrap_s, sampler.wrap_t, v.slot[kS], v.slot[kT]);
+    v.slot[kS] = place.wu;
+    v.slot[kT] = place.wv;
+    v.slot[kOffset] = hn::BitCast(DF(), place.offset);
   }
+};
 
- private:
-  // Texel coordinate minus one half, in 1/256.
-  static HWY_INLINE VI Fixed(VF s, float size, Wrap wrap) {
-    const DF d;
-    const VF u = TexelCoord(s, hn::Set(d, size), wrap, 0.0f);
-    return hn::Sub(hn::NearestInt(hn::Mul(u, hn::Set(d, 256.0f))), hn::Set(DI(), 128));
-  }
-  static HWY_INLINE int Clamp(int v, int lowest, int highest) {
-    return v < lowest ? lowest : (v > highest ? highest : v);
-  }
-  static HWY_INLINE uint32_t Lookup(const LevelRef& level, int x, int y) {
-    const int i = Clamp(x >> 8, -1, level.width_i - 1), j = Clamp(y >> 8, -1, level.height_i - 1);
-    const int fx = x & 255, fy = y & 255;
-    const uint32_t* t = level.texels + (j + 1) * level.pitch + (i + 1);
-    uint32_t out = 0;
-    for (int k = 0; k < 32; k += 8) {
-      auto channel = [k](uint32_t texel) { return static_cast<int>((texel >> k) & 255u); };
-      auto lerp = [](int a, int b, int f) { return a + ((f * (b - a) + 128) >> 8); };
-      const int low = lerp(channel(t[0]), channel(t[1]), fx);
-      const int high = lerp(channel(t[level.pitch]), channel(t[level.pitch + 1]), fx);
-      out |= static_cast<uint32_t>(lerp(low, high, fy)) << k;
-    }
-    return out;
+struct SampleLinearDraft {
+  static constexpr bool kKills = false, kPacks = true, kTakesFromMemory = true;
+  template <class L>
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
+    LookLinearDraft(c.params->levels[0], LaneOffsets(c.slot[kOffset] + i), v.slot[kS], v.slot[kT], v);
   }
 };
