@@ -17,5 +17,6 @@ void add_compare_command(CLI::App& app, int& status);
 void add_run_command(CLI::App& app, int& status);
 void add_demo_command(CLI::App& app, int& status);
 void add_bench_command(CLI::App& app, int& status);
+void add_cost_command(CLI::App& app, int& status);
 
 }  // namespace halfspace::compare

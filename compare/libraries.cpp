@@ -49,9 +49,19 @@ fs::path library_folder(const std::string& library, const std::optional<std::str
                     "HALFSPACE_LIBRARY_DIR");
 }
 
+fs::path oracle_folder(const std::string& library, const std::optional<std::string>& stated) {
+  if (stated) return first_with(library, {*stated}, "--oracle has to name the folder that holds it");
+  return first_with(
+      library, {own_folder() / ".." / "oracle"},
+      "the truth is drawn by a library of the tests: configure with -DHALFSPACE_BUILD_TESTS=ON and "
+      "build, or name its folder by --oracle");
+}
+
 fs::path house_program(const std::string& name) {
   const fs::path base = own_folder() / "..";
-  return first_with(name, {base / "ref_app", base / "bench", base / "libexec" / "halfspace", own_folder()},
+  return first_with(name,
+                    {base / "ref_app", base / "bench", base / "tests" / "numerics" / "hard",
+                     base / "libexec" / "halfspace", own_folder()},
                     "build it with `cmake --build --preset release`") /
          name;
 }

@@ -23,7 +23,12 @@ std::filesystem::path own_folder();
 std::filesystem::path library_folder(const std::string& library,
                                      const std::optional<std::string>& stated = {});
 
-// A program of the house: in the build tree ref_app/NAME or bench/NAME, once installed
+// The folder with the oracle's `library`: `stated` when given, or beside the command in a build tree,
+// ../oracle. It is part of the tests and never installed. Throws NotFound.
+std::filesystem::path oracle_folder(const std::string& library,
+                                    const std::optional<std::string>& stated = {});
+
+// A program of the house: in the build tree ref_app/NAME, bench/NAME or among the hard cases, once installed
 // ../libexec/halfspace/NAME. Throws NotFound.
 std::filesystem::path house_program(const std::string& name);
 

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   add_run_command(app, status);
   add_demo_command(app, status);
   add_bench_command(app, status);
+  add_cost_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

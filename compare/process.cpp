@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -74,10 +75,16 @@ class ErrorPipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-int wait_for(pid_t child) {
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+int wait_for(pid_t child, ChildResult& result) {
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  rusage used{};
+  while (wait4(child, &status, 0, &used) < 0 && errno == EINTR) {
   }
+  result.cpu_seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
   return status;
 }
 
@@ -96,10 +103,10 @@ ChildResult run_child(const ChildCommand& command) {
   running_child = child;
   const HandOnSignals hand_on_signals;
   const int exec_error = error_pipe.receive();
-  const int status = wait_for(child);
+  ChildResult result;
+  const int status = wait_for(child, result);
   running_child = 0;
   if (exec_error != 0) throw start_error(command, exec_error);
-  ChildResult result;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
   result.exit_code = result.signal != 0 ? 128 + result.signal : WEXITSTATUS(status);

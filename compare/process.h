@@ -29,7 +29,8 @@ struct ChildCommand {
 struct ChildResult {
   int exit_code = 0;  // 128 + signal when a signal ended it, as a shell has it
   int signal = 0;
-  double seconds = 0;  // from before fork to its end
+  double seconds = 0;      // from before fork to its end
+  double cpu_seconds = 0;  // processor time, the system's for it too
 };
 
 // Runs to the end. SIGINT and SIGTERM sent to us meanwhile are handed on to the child. Throws StartError.

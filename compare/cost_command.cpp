@@ -1,0 +1,105 @@
+// halfspace cost: what accuracy costs in time, and what it buys in pixels.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "compare/commands.h"
+#include "compare/cost.h"
+#include "compare/cost_chart.h"
+#include "compare/html.h"
+
+namespace halfspace::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CostCommand {
+  CostOptions options;
+  bool no_axes = false, no_mesa = false;
+};
+
+void tell(const std::string& what) { std::fprintf(stderr, "halfspace cost: %s\n", what.c_str()); }
+
+void write_files(const CostResult& result, const fs::path& out) {
+  write_text(out / "cost.csv", to_csv(result));
+  write_text(out / "cost.json", to_json(result).dump(2) + "\n");
+  const CostScene summary = result.scenes.size() > 1 ? all_scenes(result) : result.scenes.front();
+  write_text(out / "cost.svg", scene_chart(summary));
+  if (result.scenes.size() > 1) write_text(out / "cost_scenes.svg", scenes_chart(result));
+  if (result.options.axes) write_text(out / "cost_axes.svg", axes_chart(summary));
+}
+
+int cost(CostCommand command) {
+  try {
+    command.options.axes = !command.no_axes;
+    command.options.mesa = !command.no_mesa;
+    const CostResult result = measure_cost(command.options, tell);
+    std::fputs(to_text(result).c_str(), stdout);
+    write_files(result, command.options.out);
+    std::printf("cost.csv, cost.json and the charts cost*.svg are in %s\n", command.options.out.c_str());
+    return kGood;
+  } catch (const std::exception& error) {
+    tell(error.what());
+    return kCouldNotTell;
+  }
+}
+
+void add_what_to_draw(CLI::App& app, CostOptions& options) {
+  app.add_option("--scenes", options.scenes,
+                 "Scenes of ref_app: numbers, ranges (2-5), names, or `everything`; default: all")
+      ->delimiter(',');
+  app.add_option("--cases", options.cases, "Hard cases by name, or all")->delimiter(',');
+  app.add_option("--frame", options.frame, "Which frame of PROGRAM is judged, from 0")->capture_default_str();
+  app.add_option("--size", "Picture size, WIDTHxHEIGHT; default 512x512")
+      ->each([&options](const std::string& text) {
+        int end = 0;
+        if (std::sscanf(text.c_str(), "%5dx%5d%n", &options.width, &options.height, &end) != 2 ||
+            static_cast<size_t>(end) != text.size() || options.width < 1 || options.height < 1)
+          throw CLI::ValidationError("--size", "'" + text + "' is not a size like 512x512");
+      });
+}
+
+void add_how_to_measure(CLI::App& app, CostCommand& command) {
+  CostOptions& options = command.options;
+  app.add_flag("--no-axes", command.no_axes, "The three levels only, no axis of the dial alone");
+  app.add_flag("--no-mesa", command.no_mesa, "Leave OSMesa's llvmpipe and softpipe out");
+  app.add_option("--rounds", options.rounds, "How often all settings take their turn")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--frames", options.frames, "Frames a process and scene")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000));
+  app.add_option("--core", options.core, "Core all are pinned to; default: the last one");
+  app.add_option("--library", options.folders.ours, "Folder that holds our libOSMesa.so.8")->type_name("DIR");
+  app.add_option("--oracle", options.folders.oracle, "Folder that holds the oracle's libOSMesa.so.8")
+      ->type_name("DIR");
+  app.add_option("--out", options.out, "Folder for tables and charts")->capture_default_str();
+}
+
+}  // namespace
+
+void add_cost_command(CLI::App& app, int& status) {
+  auto command = std::make_shared<CostCommand>();
+  CLI::App* cost_app = app.add_subcommand(
+      "cost",
+      "Time each step of accuracy, and count the pixels it gets right: halfspace cost [OPTIONS] [-- PROGRAM "
+      "[ARGUMENTS...]]");
+  cost_app->footer(
+      "Time is the processor's, on one thread; the truth is drawn by the oracle, a slow renderer of the "
+      "tests, and "
+      "kept in OUT/truth.\nExit status: 0 measured, whatever came out; 2 something could not be drawn.");
+  add_what_to_draw(*cost_app, command->options);
+  add_how_to_measure(*cost_app, *command);
+  cost_app->prefix_command();
+  cost_app->callback([command, cost_app, &status] {
+    command->options.program = cost_app->remaining();
+    if (!command->options.program.empty() && command->options.program.front() == "--")
+      command->options.program.erase(command->options.program.begin());
+    else if (!command->options.program.empty() && command->options.program.front().starts_with("-"))
+      throw CLI::ValidationError(command->options.program.front(),
+                                 "is no option of ours; see halfspace cost --help");
+    status = cost(*command);
+  });
+}
+
+}  // namespace halfspace::compare
