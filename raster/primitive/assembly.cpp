@@ -1,8 +1,11 @@
 #include "raster/primitive/assembly.h"
 
+#include <bit>
+
 #include "raster/primitive/clip.h"
 #include "raster/primitive/patterns.h"
 #include "raster/primitive/shape_assembly.h"
+#include "raster/primitive/triangle_filter.h"
 #include "raster/primitive/window_box.h"
 
 namespace halfspace::raster {
@@ -50,14 +53,25 @@ class Assembler {
     const bool cull_cw = front_is_ccw_ ? raster.cull_back : raster.cull_front;
     culled_from_ = cull_cw ? INT64_MIN : 0;
     culled_to_ = cull_ccw ? INT64_MAX : 0;
+    filter_ = {records_, stride_, draw.vertices.all_inside ? nullptr : outcodes_, bounds_, cull_cw, cull_ccw};
   }
 
   template <class Pattern>
   void faces(uint32_t first, uint32_t count) {
     segment_.triangles_in += count;
-    for (uint32_t k = first; k < first + count; ++k) {
-      const Corners at = Pattern::at(k);
-      triangle(vertex(at.v[0]), vertex(at.v[1]), vertex(at.v[2]), Pattern::kProvoking);
+    const TriangleFilterFunction run_filter = triangle_filter();
+    uint32_t corners[3 * kFilterLanes];
+    FilteredTriangles found{};
+    while (count > 0) {
+      const uint32_t group = std::min(count, kFilterLanes);
+      for (uint32_t i = 0; i < group; ++i) {
+        const Corners at = Pattern::at(first + i);
+        for (uint32_t k = 0; k < 3; ++k) corners[3 * i + k] = vertex(at.v[k]);
+      }
+      run_filter(filter_, corners, group, found);
+      take_filtered(found, corners, group, Pattern::kProvoking);
+      first += group;
+      count -= group;
     }
   }
 
@@ -89,29 +103,29 @@ class Assembler {
   bool is_back(int64_t area) const { return (area > 0) != front_is_ccw_; }
   bool is_culled(int64_t area) const { return area >= culled_from_ && area <= culled_to_; }
 
-  // Corners by value: in memory they would be read back wider than they were written, which stalls.
-  void triangle(uint32_t v0, uint32_t v1, uint32_t v2, uint8_t provoking) {
-    const unsigned o0 = outcodes_[v0], o1 = outcodes_[v1], o2 = outcodes_[v2], any = o0 | o1 | o2;
-    if (any != 0) {
-      if ((o0 & o1 & o2) != 0 || (any & kOutNotFinite)) {
-        ++segment_.culled;
-        return;
+  void take_filtered(const FilteredTriangles& found, const uint32_t* corners, uint32_t count, uint8_t provoking) {
+    const uint32_t taken = found.kept | found.special;
+    segment_.culled += count - uint32_t(std::popcount(taken));
+    for (uint32_t todo = taken; todo != 0; todo &= todo - 1) {
+      const auto lane = uint32_t(std::countr_zero(todo));
+      const uint32_t* v = corners + 3 * lane;
+      if (found.special >> lane & 1) {
+        cut_triangle({{v[0], v[1], v[2]}}, unsigned{outcodes_[v[0]]} | outcodes_[v[1]] | outcodes_[v[2]], provoking);
+      } else {
+        bin_filtered(found, lane, v, provoking);
       }
-      if (any & kOutCutMask) return cut_triangle({{v0, v1, v2}}, any, provoking);
     }
-    const VertexHead &a = head(v0), &b = head(v1), &c = head(v2);
-    const int64_t area = int64_t{b.x - a.x} * (c.y - a.y) - int64_t{c.x - a.x} * (b.y - a.y);
-    const Rect box = triangle_box(a.x, a.y, b.x, b.y, c.x, c.y);
-    if (is_culled(area) || box.empty()) {
-      ++segment_.culled;
-      return;
-    }
-    const uint32_t primitive =
-        append({{v0, v1, v2}, PrimitiveKind::triangle, false, is_back(area), provoking});
-    const TileBox tiles = tile_box(box);
+  }
+
+  void bin_filtered(const FilteredTriangles& found, uint32_t lane, const uint32_t* v, uint8_t provoking) {
+    const bool back = (found.clockwise >> lane & 1) == front_is_ccw_;
+    const uint32_t primitive = append({{v[0], v[1], v[2]}, PrimitiveKind::triangle, false, back, provoking});
+    const TileBox tiles = tile_box(
+        {found.first_x[lane], found.first_y[lane], found.last_x[lane] + 1, found.last_y[lane] + 1});
     if (tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1)
       return push_to_bin(segment_, tiles.x0, tiles.y0, primitive);
-    const int32_t x[3] = {a.x, b.x, c.x}, y[3] = {a.y, b.y, c.y};
+    const int32_t x[3] = {found.x[0][lane], found.x[1][lane], found.x[2][lane]};
+    const int32_t y[3] = {found.y[0][lane], found.y[1][lane], found.y[2][lane]};
     bin_triangle(segment_, tiles, x, y, primitive);
   }
 
@@ -204,6 +218,7 @@ class Assembler {
   Rect bounds_;
   bool front_is_ccw_;
   int64_t culled_from_, culled_to_;  // signed areas that are dropped; 0 always is
+  TriangleFilter filter_;
   Clipper clipper_;
 };
 

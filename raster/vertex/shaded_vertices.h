@@ -68,6 +68,7 @@ struct ShadedVertices {
   std::byte* records = nullptr;            // count * layout.stride() bytes, owned by the device's arena
   uint32_t count = 0;
   std::vector<uint16_t> outcodes;          // count
+  bool all_inside = false;                 // all of them are zero
   std::vector<ClipVertex> clip;            // count
   const VertexHead& head(uint32_t i) const {
     return *reinterpret_cast<const VertexHead*>(records + i * layout.stride());

@@ -1,0 +1,114 @@
+// The filter of triangles, on every instruction set, against a look at every pixel.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+#include <sstream>
+
+#include "raster/api/device.h"
+#include "raster/primitive/triangle_filter.h"
+#include "tests/unit/raster_front.h"
+
+namespace halfspace::raster::test {
+namespace {
+
+constexpr Rect kBounds{3, 2, 13, 14};  // within the 16 x 16 pixels the triangles lie in
+
+struct Corner {
+  int32_t x, y;
+};
+using Triangle = std::array<Corner, 3>;
+
+std::vector<std::string> levels() {
+  std::istringstream names{std::string(isa_available())};
+  return {std::istream_iterator<std::string>(names), {}};
+}
+
+int64_t area_of(const Triangle& t) {
+  return (int64_t{t[1].x} - t[0].x) * (t[2].y - t[0].y) - (int64_t{t[2].x} - t[0].x) * (t[1].y - t[0].y);
+}
+
+bool covers_a_pixel(const Triangle& t) {
+  const int32_t x[3] = {t[0].x, t[1].x, t[2].x}, y[3] = {t[0].y, t[1].y, t[2].y};
+  for (int py = kBounds.y0; py < kBounds.y1; ++py)
+    for (int px = kBounds.x0; px < kBounds.x1; ++px)
+      if (covers(x, y, px, py)) return true;
+  return false;
+}
+
+// Corners on every 1/256 pixel, on pixel centres and on their edges; of all sizes, many of them tiny.
+Triangle random_triangle(std::mt19937& random) {
+  const int32_t step = std::array{1, 1, 128, 64}[random() % 4];
+  const auto reach = int32_t(16) << random() % 9;
+  const auto near = [&](int32_t middle) {
+    return (middle + int32_t(random() % uint32_t(2 * reach)) - reach) / step * step;
+  };
+  const auto middle_x = int32_t(random() % 4096), middle_y = int32_t(random() % 4096);
+  Triangle t;
+  for (Corner& c : t) c = {near(middle_x), near(middle_y)};
+  return t;
+}
+
+class Filter {
+ public:
+  Filter(bool cull_clockwise, bool cull_counter_clockwise)
+      : filter_{reinterpret_cast<const std::byte*>(corners_.data()),
+                sizeof(Corner),
+                nullptr,
+                kBounds,
+                cull_clockwise,
+                cull_counter_clockwise} {}
+
+  FilteredTriangles run(const std::array<Triangle, kFilterLanes>& triangles, uint32_t count) {
+    std::array<uint32_t, 3 * kFilterLanes> order;
+    for (uint32_t i = 0; i < order.size(); ++i) {
+      order[i] = uint32_t(order.size()) - 1 - i;
+      corners_[order[i]] = triangles[i / 3][i % 3];
+    }
+    FilteredTriangles found{};
+    triangle_filter()(filter_, order.data(), count, found);
+    return found;
+  }
+
+ private:
+  std::array<Corner, 3 * kFilterLanes> corners_;
+  TriangleFilter filter_;
+};
+
+TEST(TriangleFilter, KeepsWhatCoversAPixel) {
+  const std::string before(isa_name());
+  for (const std::string& level : levels()) {
+    ASSERT_TRUE(set_isa(level));
+    std::mt19937 random(7);
+    for (int round = 0; round < 20000; ++round) {
+      const bool cull_clockwise = random() % 4 == 0, cull_counter_clockwise = random() % 4 == 0;
+      const uint32_t count = 1 + random() % kFilterLanes;
+      std::array<Triangle, kFilterLanes> triangles;
+      for (Triangle& t : triangles) t = random_triangle(random);
+      const FilteredTriangles found = Filter(cull_clockwise, cull_counter_clockwise).run(triangles, count);
+      ASSERT_EQ(found.kept >> count, 0u);
+      for (uint32_t i = 0; i < count; ++i) {
+        const Triangle& t = triangles[i];
+        const int64_t area = area_of(t);
+        const bool culled = area == 0 || (area > 0 ? cull_counter_clockwise : cull_clockwise);
+        const bool kept = found.kept >> i & 1;
+        int32_t low_x = t[0].x, high_x = low_x, low_y = t[0].y, high_y = low_y;
+        for (const Corner& c : t) {
+          low_x = std::min(low_x, c.x), high_x = std::max(high_x, c.x);
+          low_y = std::min(low_y, c.y), high_y = std::max(high_y, c.y);
+        }
+        if (!culled && covers_a_pixel(t)) {
+          ASSERT_TRUE(kept) << level;
+          ASSERT_EQ(found.clockwise >> i & 1, area < 0 ? 1u : 0u);
+          for (int k = 0; k < 3; ++k) ASSERT_EQ(found.x[k][i], t[size_t(k)].x);
+        } else if (culled || std::max(high_x - low_x, high_y - low_y) < 3 * kSubpixelScale) {
+          ASSERT_FALSE(kept) << level;
+        }
+      }
+    }
+  }
+  set_isa(before);
+}
+
+}  // namespace
+}  // namespace halfspace::raster::test
