@@ -37,7 +37,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/write.inl"
 
 enum SlotGroup : unsigned {
-  kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32, kMip = 64,
+  kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32, kMip = 64, kTexelAt = 2048,
   kColorLow = 128, kCoordLow = 256, kTexelLow = 512, kLevelLow = 1024,  // what those floats leave of a double
 };
 
@@ -55,6 +55,7 @@ HWY_INLINE void LoadSlots(const BlockContext& c, int i, Lanes& v) {
   LoadGroup<kGroups, kTexel, kTexR, 4>(c, i, v);
   LoadGroup<kGroups, kLevel, kLambda, 1>(c, i, v);
   LoadGroup<kGroups, kMip, kMipKey, 2>(c, i, v);
+  LoadGroup<kGroups, kTexelAt, kOffset, 1>(c, i, v);
   LoadGroup<kGroups, kColorLow, kLowR, 4>(c, i, v);
   LoadGroup<kGroups, kCoordLow, kLowS, 2>(c, i, v);
   LoadGroup<kGroups, kTexelLow, kLowTexR, 4>(c, i, v);
@@ -75,6 +76,7 @@ HWY_INLINE void StoreSlots(const Lanes& v, int i, BlockContext& c) {
   StoreGroup<kGroups, kTexel, kTexR, 4>(v, i, c);
   StoreGroup<kGroups, kLevel, kLambda, 1>(v, i, c);
   StoreGroup<kGroups, kMip, kMipKey, 2>(v, i, c);
+  StoreGroup<kGroups, kTexelAt, kOffset, 1>(v, i, c);
   StoreGroup<kGroups, kColorLow, kLowR, 4>(v, i, c);
   StoreGroup<kGroups, kCoordLow, kLowS, 2>(v, i, c);
   StoreGroup<kGroups, kTexelLow, kLowTexR, 4>(v, i, c);

@@ -113,7 +113,10 @@ void add_lookup(const TextureView& view, const Accuracy& accuracy, bool projecti
   using enum StageId;
   if (needs_lambda(view)) return add_level_lookup(accuracy, projective, list);
   if (accuracy.filter == Level::exact) return list.add(sample_exact);
-  if (view.sampler.mag == Filter::nearest) return list.add(sample_nearest);
+  if (view.sampler.mag == Filter::nearest) {
+    list.add(footprint_nearest);
+    return list.add(sample_nearest);
+  }
   if (accuracy.filter == Level::draft) {
     list.add(footprint_draft);
     return list.add(sample_linear_draft);

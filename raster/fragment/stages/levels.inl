@@ -138,7 +138,10 @@ struct SampleLevels {
 
   static HWY_INLINE void LookAt(const FragmentParams& p, int index, bool linear, Lanes& v) {
     const LevelRef& level = p.levels[index];
-    if (!linear) return LookNearest(level, p.sampler, v.slot[kS], v.slot[kT], v);
+    if (!linear) {
+      const LaneOffsets offsets(NearestOffset(level, p.sampler, v.slot[kS], v.slot[kT]));
+      return UnpackTexels(LoadTexels(offsets, level.texels), v);
+    }
     const Place place = PlaceOn(level, p.sampler, v.slot[kS], v.slot[kT]);
     LookPlace(level, LaneOffsets(place.offset), place.wu, place.wv, v);
   }

@@ -12,13 +12,16 @@ HWY_INLINE VF TexelCoord(VF s, VF size, Wrap wrap, float center) {
   return hn::Sub(u, hn::Set(d, center));
 }
 
-// The coordinate of a nearest lookup, snapped to 1/1024 texel: s = k / N is often a rounding below texel k's edge. With
-// REPEAT what snaps to the far edge is texel 0 again.
-HWY_INLINE VF NearestTexel(VF s, VF size, Wrap wrap) {
+// The texel of a nearest lookup, its coordinate snapped to 1/1024 texel: s = k / N is often a rounding below texel k's
+// edge. With REPEAT what snaps to the far edge is texel 0 again. In the level whatever s is, as below.
+HWY_INLINE VI NearestTexel(VF s, float size, int size_i, Wrap wrap) {
   const DF d;
-  const VF scaled = hn::Mul(TexelCoord(s, size, wrap, 0.0f), hn::Set(d, 1024.0f));
-  const VF u = hn::Floor(hn::Mul(hn::Floor(hn::Add(scaled, hn::Set(d, 0.5f))), hn::Set(d, 1.0f / 1024.0f)));
-  return wrap == Wrap::repeat ? hn::IfThenZeroElse(hn::Ge(u, size), u) : u;
+  const DI di;
+  // Never negative, so truncation is floor.
+  const VF scaled = hn::Mul(TexelCoord(s, hn::Set(d, size), wrap, 0.0f), hn::Set(d, 1024.0f));
+  VI u = hn::ShiftRight<10>(TruncateInRange(hn::Add(scaled, hn::Set(d, 0.5f))));
+  if (wrap == Wrap::repeat) u = hn::IfThenZeroElse(hn::Eq(u, hn::Set(di, size_i)), u);
+  return hn::Min(hn::Max(u, hn::Zero(di)), hn::Set(di, size_i - 1));
 }
 
 // Index in [lowest, size - 1] whatever u is: out-of-range and NaN lanes are dead, but their loads must be safe.
@@ -167,26 +170,56 @@ HWY_INLINE VI TexelOffset(const LevelRef& level, VI x, VI y) {
   return hn::Add(hn::Mul(hn::Add(y, one), hn::Set(di, level.pitch)), hn::Add(x, one));
 }
 
-// All lanes on one level.
-HWY_INLINE void LookNearest(const LevelRef& level, const Sampler& sampler, VF s, VF t, Lanes& v) {
-  const DF d;
-  const DI di;
-  const VF u0 = NearestTexel(s, hn::Set(d, level.width), sampler.wrap_s);
-  const VF t0 = NearestTexel(t, hn::Set(d, level.height), sampler.wrap_t);
-  const LaneOffsets offsets(TexelOffset(level, TexelIndex(u0, hn::Set(di, level.width_i), 0),
-                                        TexelIndex(t0, hn::Set(di, level.height_i), 0)));
-  alignas(64) uint32_t texels[kMaxLanes];
-  for (int j = 0; j < kLanes; ++j) texels[j] = level.texels[offsets[j]];
-  UnpackTexels(hn::Load(DU(), texels), v);
+HWY_INLINE VI NearestOffset(const LevelRef& level, const Sampler& sampler, VF s, VF t) {
+  return TexelOffset(level, NearestTexel(s, level.width, level.width_i, sampler.wrap_s),
+                     NearestTexel(t, level.height, level.height_i, sampler.wrap_t));
 }
 
-struct SampleNearest {
+// By way of registers: a vector read where single texels were just written would wait for them.
+HWY_INLINE VU LoadTexels(const LaneOffsets& offsets, const uint32_t* texels) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_SSE4
+  auto four = [&](int j) HWY_ATTR {
+    __m128i v = _mm_cvtsi32_si128(static_cast<int>(texels[offsets[j]]));
+    v = _mm_insert_epi32(v, static_cast<int>(texels[offsets[j + 1]]), 1);
+    v = _mm_insert_epi32(v, static_cast<int>(texels[offsets[j + 2]]), 2);
+    return _mm_insert_epi32(v, static_cast<int>(texels[offsets[j + 3]]), 3);
+  };
+#if HWY_TARGET == HWY_SSE4
+  return VU{four(0)};
+#else
+  auto eight = [&](int j) HWY_ATTR { return _mm256_inserti128_si256(_mm256_castsi128_si256(four(j)), four(j + 4), 1); };
+#if HWY_TARGET == HWY_AVX2
+  return VU{eight(0)};
+#else
+  return VU{_mm512_inserti64x4(_mm512_castsi256_si512(eight(0)), eight(8), 1)};
+#endif
+#endif
+#else
+  alignas(64) uint32_t loaded[kMaxLanes];
+  for (int j = 0; j < kLanes; ++j) loaded[j] = texels[offsets[j]];
+  return hn::Load(DU(), loaded);
+#endif
+}
+
+// Where a nearest lookup on level 0 reads. A stage of its own for the reason Footprint is one.
+struct FootprintNearest {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
-    LookNearest(c.params->levels[0], c.params->sampler, v.slot[kS], v.slot[kT], v);
+    const VI offset = NearestOffset(c.params->levels[0], c.params->sampler, v.slot[kS], v.slot[kT]);
+    v.slot[kOffset] = hn::BitCast(DF(), offset);
+  }
+};
+
+struct SampleNearest {
+  static constexpr bool kKills = false, kPacks = true, kTakesFromMemory = true;
+  template <class L>
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
+    UnpackTexels(LoadTexels(LaneOffsets(c.slot[kOffset] + i), c.params->levels[0].texels), v);
   }
 };
 
