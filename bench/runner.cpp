@@ -19,7 +19,8 @@ Json list_of_workloads() {
     list.push_back({{"name", workload.name},
                     {"target", workload.target},
                     {"draft_target", workload.draft_target},
-                    {"what", workload.what}});
+                    {"what", workload.what},
+                    {"work", work_of(workload.name)}});
   return list;
 }
 

@@ -17,6 +17,15 @@ const std::vector<Workload>& all_workloads() {
   return workloads;
 }
 
+std::map<std::string, double> work_of(const std::string& workload) {
+  std::map<std::string, double> work;
+#define WORK(name, limit, amount) \
+  if (workload == #name) work[limit] += amount;
+#include "bench/work.def"
+#undef WORK
+  return work;
+}
+
 const Workload& workload_named(const std::string& name) {
   std::string known;
   for (const Workload& workload : all_workloads()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Workload {
 };
 
 const std::vector<Workload>& all_workloads();
+
+// What a frame of it cannot do without, at 1024x1024: amounts by the names of the benchmarks in limits.cpp.
+std::map<std::string, double> work_of(const std::string& workload);
 
 // Throws std::runtime_error that names those there are.
 const Workload& workload_named(const std::string& name);

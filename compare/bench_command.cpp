@@ -5,10 +5,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "compare/bench_limits.h"
 #include "compare/bench_scenes.h"
 #include "compare/bench_workloads.h"
 #include "compare/commands.h"
 #include "compare/html.h"
+#include "compare/process.h"
 
 namespace halfspace::compare {
 namespace {
@@ -60,6 +62,24 @@ void add_scenes_command(CLI::App& bench_app, int& status) {
   });
 }
 
+struct LimitsOptions {
+  int core = available_cores().empty() ? 0 : available_cores().back();
+  double seconds = 0.5;
+  std::filesystem::path out = "out/bench";
+};
+
+void add_limits_command(CLI::App& bench_app, int& status) {
+  auto options = std::make_shared<LimitsOptions>();
+  CLI::App* command = bench_app.add_subcommand("limits", "What one core of this machine can do at best");
+  command->add_option("--core", options->core, "Core to stay on")->capture_default_str();
+  command->add_option("--seconds", options->seconds, "For each")->capture_default_str();
+  command->add_option("--out", options->out, "Folder for the numbers and the chart")->capture_default_str();
+  command->callback([options, &status] {
+    status = or_complain(
+        [&] { return report(bench_limits(options->core, options->seconds), options->out, "limits"); });
+  });
+}
+
 int bench_the_workloads(const WorkloadOptions& options) {
   return or_complain([&] {
     return report(bench_workloads(options, tell), options.out, options.against ? "against" : "workloads");
@@ -97,6 +117,7 @@ void add_bench_command(CLI::App& app, int& status) {
   command->require_subcommand(0, 1);
   add_workload_options(*command, *options);
   add_scenes_command(*command, status);
+  add_limits_command(*command, status);
   command->callback([command, options, &status] {
     if (command->get_subcommands().empty()) status = bench_the_workloads(*options);
   });

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 
+#include "compare/bench_limits.h"
 #include "compare/dialogue.h"
 #include "compare/libraries.h"
 #include "compare/processor.h"
@@ -17,7 +19,8 @@ using Json = nlohmann::json;
 using Progress = std::function<void(const std::string&)>;
 
 constexpr const char* kLibrary = "libOSMesa.so.8";
-constexpr double kBatchMs = 60;  // frames are measured in batches of about this length
+constexpr double kLimitSeconds = 0.05;  // for each
+constexpr double kBatchMs = 60;         // frames are measured in batches of about this length
 
 // One who draws: bench/workloads with a library, an environment and cores.
 class Contestant {
@@ -86,6 +89,7 @@ struct Workload {
   std::string name, what;
   double target;
   bool draft;
+  std::map<std::string, double> work;  // amounts by the names of limits
 };
 
 // The program knows them; it is asked without drawing anything.
@@ -94,13 +98,13 @@ std::vector<Workload> workloads(const WorkloadOptions& options) {
   std::vector<Workload> chosen;
   const Json list = lister.order("list");
   for (const Json& entry : list.at("workloads")) {
-    const Workload workload{entry.at("name"), entry.at("what"), entry.at("target"), false};
+    const Workload workload{entry.at("name"), entry.at("what"), entry.at("target"), false, entry.at("work")};
     const double draft_target = entry.at("draft_target");
     if (!options.only.empty() &&
         std::find(options.only.begin(), options.only.end(), workload.name) == options.only.end())
       continue;
     chosen.push_back(workload);
-    if (draft_target > 0) chosen.push_back({workload.name, workload.what, draft_target, true});
+    if (draft_target > 0) chosen.push_back({workload.name, workload.what, draft_target, true, workload.work});
   }
   for (const std::string& name : options.only)
     if (std::none_of(chosen.begin(), chosen.end(), [&](const Workload& w) { return w.name == name; }))
@@ -155,11 +159,18 @@ class Bench {
   }
 
   WorkloadResult run() {
+    measure_limits();
     for (const Workload& workload : workloads(options_)) measure(workload);
     return std::move(result_);
   }
 
  private:
+  void measure_limits() {
+    if (options_.against) return;
+    progress_("limits of this core");
+    limits_ = bench_limits(chosen_core(options_), kLimitSeconds);
+  }
+
   void measure(const Workload& workload) {
     WorkloadRow row;
     row.name = workload.name;
@@ -173,6 +184,7 @@ class Bench {
     row.theirs = times.second;
     row.ratio = row.ours.cpu_ms.median > 0 ? row.theirs.cpu_ms.median / row.ours.cpu_ms.median : 0;
     row.target = options_.against ? 1 / (1 + options_.slower_percent / 100) : workload.target;
+    if (limits_ && !workload.work.empty()) row.limit_ms = milliseconds(*limits_, workload.work);
     compare_pictures(workload, *ours, *theirs, row);
     if (options_.threads && !options_.against && row.ours.wall_ms.median > kThreadsFromMs)
       measure_threads(row);
@@ -246,6 +258,7 @@ class Bench {
 
   WorkloadOptions options_;
   Progress progress_;
+  std::optional<LimitsResult> limits_;
   WorkloadResult result_;
 };
 

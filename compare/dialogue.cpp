@@ -51,28 +51,48 @@ Dialogue::Dialogue(const ChildCommand& command) : name_(command.arguments.front(
   from_child_ = answers[0];
 }
 
-Dialogue::~Dialogue() {
+Dialogue::~Dialogue() { wait(); }
+
+// Its exit status as waitpid gives it; 0 when it has been waited for.
+int Dialogue::wait() {
+  if (child_ < 0) return 0;
   close(to_child_);
   close(from_child_);
-  while (waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
+  int status = 0;
+  while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
+  child_ = -1;
+  return status;
+}
+
+// False at the end.
+bool Dialogue::receive() {
+  std::array<char, 4096> buffer;
+  ssize_t count = 0;
+  do count = read(from_child_, buffer.data(), buffer.size());
+  while (count < 0 && errno == EINTR);
+  if (count > 0) received_.append(buffer.data(), static_cast<size_t>(count));
+  return count > 0;
 }
 
 std::string Dialogue::ask(const std::string& line) {
   bool alive = write_all(to_child_, line + "\n");
-  for (size_t end; alive;) {
-    if ((end = received_.find('\n')) != std::string::npos) {
-      const std::string answer = received_.substr(0, end);
-      received_.erase(0, end + 1);
-      return answer;
-    }
-    std::array<char, 4096> buffer;
-    const ssize_t count = read(from_child_, buffer.data(), buffer.size());
-    if (count < 0 && errno == EINTR) continue;
-    alive = count > 0;
-    if (alive) received_.append(buffer.data(), static_cast<size_t>(count));
+  for (size_t end = 0; alive; alive = receive()) {
+    if ((end = received_.find('\n')) == std::string::npos) continue;
+    const std::string answer = received_.substr(0, end);
+    received_.erase(0, end + 1);
+    return answer;
   }
   throw std::runtime_error(name_ + " ended instead of answering \"" + line + "\"");
+}
+
+std::string Dialogue::rest() {
+  close(to_child_);
+  to_child_ = -1;
+  while (receive()) {
+  }
+  if (wait() != 0) throw std::runtime_error(name_ + " failed");
+  return std::move(received_);
 }
 
 }  // namespace halfspace::compare

@@ -21,8 +21,13 @@ class Dialogue {
 
   // Throws std::runtime_error when the child ended instead of answering.
   std::string ask(const std::string& line);
+  // Ends the child's input, and gives what it still has to say. Throws std::runtime_error when it failed.
+  std::string rest();
 
  private:
+  bool receive();
+  int wait();
+
   std::string name_;
   pid_t child_ = -1;
   int to_child_ = -1, from_child_ = -1;

@@ -91,7 +91,15 @@ class Scenes(unittest.TestCase):
             self.assertAlmostEqual(row["ratio"], theirs["median"] / ours["median"])
             self.assertTrue(row["same_picture"], row)
             self.assertEqual(row["good"], row["ratio"] >= row["target"])
+            self.assertEqual("limit_ms" in row, row["name"] != "startup")
         self.assertTrue((self.out / "ours" / "startup.png").exists())
+
+    def test_limits(self):
+        done = run("bench", "limits", "--seconds", 0.01, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        limits = json.loads((self.out / "limits.json").read_text())["per_second"]
+        self.assertGreater(limits["bytes_set/16"], limits["bytes_set/262144"] / 2)
+        self.assertGreater(limits["pixel_stored"], limits["pixel_interpolated"])
 
     def test_two_builds(self):
         """A build against itself: the same pictures to the bit. A folder without a library is an error."""
