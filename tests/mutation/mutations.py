@@ -1,0 +1,167 @@
+"""The rules that are broken one at a time, and by which test each is expected to be noticed.
+
+A text has to occur exactly once in its file. A catcher is PROGRAM:FILTER, a GoogleTest program under tests/ and its
+filter, or hard_cases:CASE,CASE. None compares with hashes of earlier pictures: those notice everything and prove
+nothing.
+"""
+from typing import NamedTuple
+
+
+class Mutation(NamedTuple):
+    name: str
+    file: str
+    text: str
+    replacement: str
+    catcher: str
+
+
+SETUP = "raster/tile/setup.inl"
+STAGES = "raster/fragment/stages/"
+
+MUTATIONS = [
+    # ---- coverage
+    Mutation("snapping rounds down", "raster/vertex/vertex_stage.cpp",
+             "hn::Floor(hn::Add(ideal, hn::Set(d, 0.5)))", "hn::Floor(ideal)",
+             "coverage_test:Coverage.CornersAreSnappedToTheNearestGridPoint"),
+    Mutation("a bottom edge owns its pixels, not a top edge", SETUP,
+             "hn::And(hn::Eq(dy, zero), hn::Lt(dx, zero))", "hn::And(hn::Eq(dy, zero), hn::Gt(dx, zero))",
+             "coverage_test:Coverage.CornersOnPixelCentres"),
+    Mutation("right edges own their pixels, not left ones", SETUP,
+             "hn::Or(hn::Lt(dy, zero), hn::And(", "hn::Or(hn::Gt(dy, zero), hn::And(",
+             "coverage_test:Coverage.CornersOnPixelCentres"),
+    Mutation("both sides own a shared edge", SETUP,
+             "hn::IfThenZeroElse(inclusive, hn::Set(d, 1.0))", "hn::IfThenZeroElse(inclusive, hn::Zero(d))",
+             "hard_cases:mesh_pixel_centres"),
+    Mutation("edge values are divided by one bit too many", SETUP,
+             "hn::Set(d, 1.0 / kSubpixelScale)));\n  // Beyond", "hn::Set(d, 0.5 / kSubpixelScale)));\n  // Beyond",
+             "hard_cases:mesh_random"),
+    Mutation("tiles whose edge value is zero are left out", "raster/primitive/binning.cpp",
+             "(e0.value | e1.value | e2.value) >= 0", "e0.value > 0 && e1.value > 0 && e2.value > 0",
+             "coverage_test:Coverage.EdgesAlongTilesAndBlocks"),
+    Mutation("the scissor takes one column more", "raster/device.cpp",
+             "intersect(whole, state.raster.scissor)",
+             "intersect(whole, Rect{state.raster.scissor.x0, state.raster.scissor.y0, state.raster.scissor.x1 + 1, "
+             "state.raster.scissor.y1})",
+             "translation_test:Translation.CuttingLeavesThePixelsInside"),
+
+    # ---- clipping
+    Mutation("a new corner depends on the end it is reckoned from", "raster/primitive/clip.cpp",
+             "out.push(crossing_corner(*current, d, *previous, d_previous, has_user))",
+             "out.push(crossing_corner(*previous, d_previous, *current, d * 1.0001, has_user))",
+             "hard_cases:mesh_near_plane,mesh_user_plane,mesh_guard_band"),
+    Mutation("the near plane is at z = 0", "raster/primitive/clip.cpp",
+             "{kOutNear, 0, 0, 1, 1, 0}", "{kOutNear, 0, 0, 1, 0, 0}",
+             "clip_test:Clip.FloorThroughTheEye"),
+    Mutation("the guard band is wider than edge functions reach", "raster/vertex/vertex_stage.cpp",
+             "double(kGuardBandMax) * kSubpixelScale - offset", "64 * double(kGuardBandMax) * kSubpixelScale - offset",
+             "hard_cases:mesh_far_vertices,mesh_guard_band"),
+    Mutation("vertices that are no numbers are kept", "raster/vertex/vertex_stage.cpp",
+             "code_if(hn::Not(finite), kOutNotFinite)", "code",
+             "bad_input_test:BadInput.PrimitivesWithoutPositionAreDropped"),
+
+    # ---- planes
+    Mutation("the reference vertex is the first one given", "raster/tile/setup_gather.inl",
+             "if (given == 3) return OrderCorners(v);", "if (given == 3) return;",
+             "translation_test:Translation.OrderOfVerticesChangesNothing"),
+    Mutation("colours are scaled by 256", SETUP,
+             "LoadFloat(in.attribute[a][k] + i), hn::Set(d, 255.0)", "LoadFloat(in.attribute[a][k] + i), hn::Set(d, 256.0)",
+             "color_test:Color.EveryByteComesBack"),
+    Mutation("attributes are not divided by w", SETUP,
+             "by_w = hn::Mul(value[k], inv_w[k])", "by_w = value[k]",
+             "color_test:Color.PerspectiveGradientsRoundToNearest"),
+    Mutation("corners lie where they were snapped to", SETUP,
+             "hn::And(hn::Le(longest, half), hn::Le(slope, hn::Mul(least, half)))", "hn::Lt(longest, hn::Zero(d))",
+             "color_test:Color.GradientsRoundToNearest"),
+    Mutation("whole repeats stay in the coordinate", SETUP,
+             "const VD turns = hn::Floor(hn::Min(hn::Min(value[0], value[1]), value[2]))",
+             "const VD turns = hn::Zero(DD())", "hard_cases:texcoord_offsets"),
+    Mutation("smooth colours are not held to 255", STAGES + "color.inl",
+             "hn::Min(hn::Max(x, hn::Zero(DF())), hn::Set(DF(), 255.0f))", "x",
+             "color_test:*"),
+    Mutation("the first vertex of a triangle provokes", "raster/primitive/patterns.h",
+             "struct ListTriangles {\n  static constexpr uint8_t kProvoking = 2",
+             "struct ListTriangles {\n  static constexpr uint8_t kProvoking = 0",
+             "color_test:FlatShading.ProvokingVertex"),
+
+    # ---- depth
+    Mutation("depth is cut off, not rounded", SETUP,
+             "hn::Add(hn::Load(d, out.f0[0] + i), hn::Set(d, 0.5))", "hn::Load(d, out.f0[0] + i)",
+             "depth_test:Depth.NearestIntegerAtEveryPixel"),
+    Mutation("depth is scaled by 2^24", SETUP,
+             "kDepthScale = static_cast<double>(kDepthMax)", "kDepthScale = static_cast<double>(kDepthMax) + 1",
+             "depth_test:Depth.NearestIntegerAtEveryPixel"),
+    Mutation("a slope is the sum of both", SETUP,
+             "depth_offset(polygon, gx > gy ? gx : gy)", "depth_offset(polygon, gx + gy)",
+             "polygon_offset_test:PolygonOffset.FactorIsOfTheSlope"),
+    Mutation("offsets are half as large", "raster/primitive/shape_plan.cpp",
+             "double(polygon.offset_units);", "0.5 * double(polygon.offset_units);",
+             "polygon_offset_test:PolygonOffset.UnitsAreStepsOfTheDepthBuffer"),
+
+    # ---- fragments
+    Mutation("blends are cut off, not rounded", STAGES + "blend.inl",
+             "hn::Add(sum, hn::Set(d, 128))", "sum", "hard_cases:blend_triples,thousand_blends"),
+    Mutation("blends are divided by 256", STAGES + "blend.inl",
+             "hn::ShiftRight<8>(hn::Add(x, hn::ShiftRight<8>(x)))", "hn::ShiftRight<8>(x)",
+             "hard_cases:blend_triples,thousand_blends"),
+    Mutation("colours are cut off on their way to memory", STAGES + "blend.inl",
+             "TruncateInRange(hn::Add(v, hn::Set(DF(), 0.5f)))", "TruncateInRange(v)",
+             "color_test:Color.GradientsRoundToNearest"),
+    Mutation("alpha is compared the other way round", STAGES + "alpha_test.inl",
+             "Passes(c.params->alpha_func, v.slot[kA], reference)", "Passes(c.params->alpha_func, reference, v.slot[kA])",
+             "blend_test:AlphaTest.ComparesBytesExactly"),
+    Mutation("the stencil mask is not applied to the reference", STAGES + "stencil.inl",
+             "s.reference & s.compare_mask", "s.reference", "stencil_test:Stencil.IsAsDefined"),
+    Mutation("stencil: hidden fragments count as drawn", STAGES + "stencil.inl",
+             "Changed(s.depth_fail, old, s)", "Changed(s.depth_pass, old, s)", "stencil_test:Stencil.IsAsDefined"),
+    Mutation("fog: what is far is clear", STAGES + "fog.inl",
+             "hn::Mul(f, color), hn::Mul(rest, hn::Set(d, fog.color[k]))",
+             "hn::Mul(rest, color), hn::Mul(f, hn::Set(d, fog.color[k]))", "hard_cases:fog_ends"),
+    Mutation("fog: EXP2 forgets to square", STAGES + "fog.inl",
+             "ExpMinus(hn::Mul(x, x))", "ExpMinus(x)", "fog_test:Fog.FactorIsWithinTenToTheMinusFive"),
+
+    # ---- textures
+    Mutation("lambda: the sum of both gradients", STAGES + "lambda.inl",
+             "x2.part[p] = hn::Max(x2.part[p], y2.part[p])", "x2.part[p] = hn::Add(x2.part[p], y2.part[p])",
+             "mipmap_test:Mipmap.LambdaWithinASixtyFourth"),
+    Mutation("lambda: half of it is missing", STAGES + "lambda.inl",
+             "hn::Mul(hn::Set(d, 0.5f), Log2(rho2))", "Log2(rho2)", "hard_cases:lod_ramp"),
+    Mutation("NEAREST mip level: one too high", STAGES + "levels.inl",
+             "hn::Sub(hn::Ceil(hn::Add(clamped, hn::Set(d, 0.5f))), hn::Set(d, 1.0f))",
+             "hn::Ceil(hn::Add(clamped, hn::Set(d, 0.5f)))", "mipmap_test:Mipmap.NearestLevel"),
+    Mutation("REPEAT truncates below zero", STAGES + "sample.inl",
+             "if (wrap == Wrap::repeat) s = hn::Sub(s, hn::Floor(s));",
+             "if (wrap == Wrap::repeat) s = hn::Sub(s, hn::Trunc(s));",
+             "texture_test:Texture*"),
+    Mutation("NEAREST at a texel's edge takes the texel before", STAGES + "sample.inl",
+             "hn::Floor(hn::Add(scaled, hn::Set(d, 0.5f)))", "hn::Sub(hn::Floor(hn::Add(scaled, hn::Set(d, 0.5f))), hn::Set(d, 1.0f))",
+             "hard_cases:texture_seams"),
+
+    # ---- lines and points
+    Mutation("diamonds contain their boundary", "raster/tile/cover_line.cpp",
+             "sign_moved(sx * (x - cx) + sy * (y - cy) - kHalf, sx, sy) >= 0", "sx * (x - cx) + sy * (y - cy) - kHalf > 0",
+             "lines_test:DiamondExit.AllEndpointPairsOnASixteenthGrid"),
+    Mutation("a line ends with its last pixel", "raster/tile/cover_line.cpp",
+             "spans(cx, cy, -1) &&\n           !is_point_in_diamond(x0 + dx, y0 + dy, cx, cy);", "spans(cx, cy, -1);",
+             "hard_cases:line_phases,line_loops"),
+    Mutation("stipple starts at its second bit", "raster/tile/cover_line.cpp",
+             "(stipple.start + index) / uint32_t(stipple.repeat)", "(stipple.start + index + 1) / uint32_t(stipple.repeat)",
+             "shapes_test:StippledLines.*"),
+    Mutation("points of even size stand a pixel off", "raster/tile/cover_line.cpp",
+             "size % 2 == 0 ? kSubpixelScale / 2 : 0", "0", "hard_cases:point_phases"),
+
+    # ---- vertices and matrices
+    Mutation("matrices multiply from the left", "state/transform.cpp",
+             "multiply(top.data(), m).data()", "multiply(m, top.data()).data()",
+             "state_matrix_test:MatrixTest.CommandsMultiplyFromTheRightLikeGlm"),
+    Mutation("specular light shines from behind, too", "raster/vertex/lighting.inl",
+             "sums.specular[0].add(hn::IfThenElseZero(lit, shine), light.specular)",
+             "sums.specular[0].add(shine, light.specular)", "lighting_test:Lighting.IsTheSpecsFormula"),
+    Mutation("specular exponent is off by one", "raster/vertex/lighting.inl",
+             "FloatVec shininess = sides[0].shininess.get(0, i);",
+             "FloatVec shininess = hn::Add(sides[0].shininess.get(0, i), hn::Set(Floats(), 1.0f));",
+             "lighting_test:Lighting.IsTheSpecsFormula"),
+    Mutation("light that is scattered back is not cut off", "raster/vertex/lighting.inl",
+             "sums.diffuse[0].add(hn::Mul(weight, positive_part(cosine)), light.diffuse)",
+             "sums.diffuse[0].add(hn::Mul(weight, hn::Abs(cosine)), light.diffuse)",
+             "lighting_test:Lighting.IsTheSpecsFormula"),
+]
