@@ -121,7 +121,7 @@ MUTATIONS = [
 
     # ---- textures
     Mutation("lambda: the sum of both gradients", STAGES + "lambda.inl",
-             "x2.part[p] = hn::Max(x2.part[p], y2.part[p])", "x2.part[p] = hn::Add(x2.part[p], y2.part[p])",
+             "rho2.part[p] = hn::Div(hn::Max(row, columns), hn::Mul(q2, q2))", "rho2.part[p] = hn::Div(hn::Add(row, columns), hn::Mul(q2, q2))",
              "mipmap_test:Mipmap.LambdaWithinASixtyFourth"),
     Mutation("lambda: half of it is missing", STAGES + "lambda.inl",
              "hn::Mul(hn::Set(d, 0.5f), Log2(rho2))", "Log2(rho2)", "hard_cases:lod_ramp"),

@@ -1,5 +1,6 @@
 #include "tests/support/scenes.h"
 
+#include <cstdio>
 #include <functional>
 
 #include "tests/support/random.h"
@@ -303,8 +304,8 @@ void accuracies(SceneMaker& m, Scene& scene) {
       state.polygon.smooth = i % 6 == 5;
       const MipMode mip = i % 2 == 0 ? MipMode::linear : (i % 4 == 1 ? MipMode::none : MipMode::nearest);
       if (i % 8 != 7) {
-        state.texture.view = m.noise(i % 6 == 2 ? BaseFormat::intensity : BaseFormat::rgba, i % 2 ? 32 : 20, 32,
-                                     sampler_of(filter, Wrap(i % 3), mip));
+        state.texture.view = m.noise(i % 6 == 2 ? BaseFormat::intensity : BaseFormat::rgba, i % 2 ? 32 : 20,
+                                     32, sampler_of(filter, Wrap(i % 3), mip));
         state.texture.env = EnvMode(i % 4);
         state.texture.env_color = m.color();
         if (i % 5 == 0) {
@@ -408,6 +409,21 @@ void draw_scene(Canvas& canvas, const Scene& scene, int x, int y) {
     scissor = {scissor.x0 + x, scissor.y0 + y, scissor.x1 + x, scissor.y1 + y};
     canvas.draw(state, draw.primitive, draw.vertices, draw.indices);
   }
+}
+
+std::map<std::string, std::string> scene_hashes(int threads) {
+  constexpr int kSize = 200;
+  std::vector<Scene> all = scenes(kSize);
+  for (Scene& scene : far_scenes(kSize)) all.push_back(std::move(scene));
+  std::map<std::string, std::string> hashes;
+  for (const Scene& scene : all) {
+    Canvas canvas(kSize, kSize, threads);
+    draw_scene(canvas, scene);
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash(canvas.read())));
+    hashes[scene.name] = text;
+  }
+  return hashes;
 }
 
 }  // namespace halfspace::test

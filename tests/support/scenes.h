@@ -1,6 +1,7 @@
 // Random scenes, the same everywhere, that between them go through all stages of the pipeline.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,8 @@ std::vector<Scene> far_scenes(int size);
 
 // Draws with viewport and scissor moved by (x, y).
 void draw_scene(Canvas& canvas, const Scene& scene, int x = 0, int y = 0);
+
+// The published hash of each scene, as tests/golden/image_hashes.txt has it: of colour and depth at 200x200.
+std::map<std::string, std::string> scene_hashes(int threads = 1);
 
 }  // namespace halfspace::test
