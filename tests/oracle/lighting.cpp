@@ -37,17 +37,18 @@ long double attenuation(const raster::Light& light, const Real4& v, const Real4&
 }
 
 struct Spot {
-  long double factor, margin;
+  long double factor, margin, cosine;
 };
+constexpr long double kLeastJump = 1e-5L;
 
 Spot spot(const raster::Light& light, const Real4& v, const Real4& p) {
-  if (light.spot_cutoff == 180) return {1, 1};
+  if (light.spot_cutoff == 180) return {1, 1, 1};
   const Real3 s =
       unit({real(light.spot_direction[0]), real(light.spot_direction[1]), real(light.spot_direction[2])});
   const long double cosine = dot(arrow(p, v), s);
   const long double edge = std::cos(real(light.spot_cutoff) * 3.14159265358979323846264338327950288L / 180);
   const long double margin = std::fabs(cosine - edge);
-  return {cosine >= edge ? std::pow(cosine, real(light.spot_exponent)) : 0, margin};
+  return {cosine >= edge ? std::pow(cosine, real(light.spot_exponent)) : 0, margin, cosine};
 }
 
 struct Sums {
@@ -71,7 +72,15 @@ void add_light(const raster::DrawState& state, const raster::Light& light, const
   for (size_t k = 0; k < 3; ++k) {
     sums.color[k] += weight * (ma[k] * la[k] + not_negative(n_dot_l) * md[k] * ld[k] + shine * ms[k] * ls[k]);
   }
-  sums.margin = std::min({sums.margin, std::fabs(n_dot_l), cone.margin});
+  // Where it jumps nothing is to be seen of a jump by nothing.
+  const long double rim = std::pow(not_negative(dot(n, half)), real(material.shininess));
+  const auto brightest = [](const Real4& m, const Real4& l) {
+    return std::max({m[0] * l[0], m[1] * l[1], m[2] * l[2]});
+  };
+  const bool shines = length(n) > 0 && weight * rim * brightest(ms, ls) > kLeastJump;
+  if (shines) sums.margin = std::min(sums.margin, std::fabs(n_dot_l));
+  if (attenuation(light, v, p) * std::pow(not_negative(cone.cosine), real(light.spot_exponent)) > kLeastJump)
+    sums.margin = std::min(sums.margin, cone.margin);
 }
 
 Real4 light_side(const raster::DrawState& state, const raster::Material& material, const Real4& v,

@@ -13,7 +13,8 @@ using Real4 = std::array<long double, 4>;
 
 struct LitVertex {
   Real4 front, back;  // clamped to [0, 1]
-  // How near a light is to where its part jumps: the least |n . VP| and |cosine - cutoff's cosine|.
+  // How near a light is to where its part jumps by something that can be seen: the least |n . VP| and
+  // |cosine - cutoff's cosine|.
   long double margin;
 };
 

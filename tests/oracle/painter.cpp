@@ -151,45 +151,56 @@ void Painter::write(const Rgba& color, size_t at) {
   }
 }
 
+// The bytes a colour may become where a correct renderer's may be a little off.
+struct Painter::Bytes {
+  std::array<uint8_t, 4> nominal, low, high;
+  Bytes(const Rgba& color, Real doubt) {
+    for (size_t k = 0; k < 4; ++k) {
+      nominal[k] = byte_of(color[k] * 255);
+      low[k] = byte_of(color[k] * 255 - doubt), high[k] = byte_of(color[k] * 255 + doubt);
+    }
+  }
+};
+
 // Spec 2.14.9 makes bytes of the colour, 4.1.8 blends those with what is stored, or 4.1.10 combines them, and
-// the result is rounded once. What may come out is tried at both ends of what may go in.
+// the result is rounded once.
 void Painter::write_bytes(const Rgba& color, ColorPixel& pixel) const {
   const ColorPixel old = pixel;
+  const Bytes s(color, level_doubt_);
   const bool combines = state_.logic_op.enabled && state_.logic_op.op != raster::LogicOp::copy;
   const bool blends = state_.blend.enabled && !state_.logic_op.enabled;
-  std::array<uint8_t, 4> s, s_low, s_high;
-  for (size_t k = 0; k < 4; ++k) {
-    s[k] = byte_of(color[k] * 255);
-    s_low[k] = byte_of(color[k] * 255 - kLevelDoubt), s_high[k] = byte_of(color[k] * 255 + kLevelDoubt);
-  }
   const bool on[4] = {state_.color_mask.r, state_.color_mask.g, state_.color_mask.b, state_.color_mask.a};
   for (size_t k = 0; k < 4; ++k) {
     if (!on[k]) continue;
     if (combines) {
-      pixel.byte[k] = combine_bits(state_.logic_op.op, s[k], old.byte[k]);
+      pixel.byte[k] = combine_bits(state_.logic_op.op, s.nominal[k], old.byte[k]);
       pixel.level[k] = pixel.byte[k];
-      const bool sure = s_low[k] == s_high[k] && old.low[k] == old.high[k];
+      const bool sure = s.low[k] == s.high[k] && old.low[k] == old.high[k];
       pixel.low[k] = sure ? pixel.byte[k] : 0, pixel.high[k] = sure ? pixel.byte[k] : 255;
-      continue;
-    }
-    if (!blends) {
+    } else if (blends) {
+      blend_byte(s, old, k, pixel);
+    } else {
       pixel.level[k] = static_cast<float>(color[k] * 255);
-      pixel.byte[k] = s[k], pixel.low[k] = s_low[k], pixel.high[k] = s_high[k];
-      continue;
+      pixel.byte[k] = s.nominal[k], pixel.low[k] = s.low[k], pixel.high[k] = s.high[k];
     }
-    const Real level = blended_level(state_.blend, s, old.byte, k);
-    pixel.level[k] = static_cast<float>(level);
-    pixel.byte[k] = byte_of(level);
-    pixel.low[k] = 255, pixel.high[k] = 0;
-    for (unsigned ends = 0; ends < 16; ++ends) {
-      std::array<uint8_t, 4> source = s, stored = old.byte;
-      source[k] = ends & 1 ? s_high[k] : s_low[k];
-      source[3] = ends & 2 ? s_high[3] : s_low[3];
-      stored[k] = ends & 4 ? old.high[k] : old.low[k];
-      stored[3] = ends & 8 ? old.high[3] : old.low[3];
-      const uint8_t byte = byte_of(blended_level(state_.blend, source, stored, k));
-      pixel.low[k] = std::min(pixel.low[k], byte), pixel.high[k] = std::max(pixel.high[k], byte);
-    }
+  }
+}
+
+// Linear in each of the numbers that go in: what may come out is found with each of them at either of its
+// ends.
+void Painter::blend_byte(const Bytes& s, const ColorPixel& old, size_t k, ColorPixel& pixel) const {
+  const Real level = blended_level(state_.blend, s.nominal, old.byte, k);
+  pixel.level[k] = static_cast<float>(level);
+  pixel.byte[k] = pixel.low[k] = pixel.high[k] = byte_of(level);
+  if (s.low == s.high && old.low == old.high) return;
+  for (unsigned ends = 0; ends < 16; ++ends) {
+    std::array<uint8_t, 4> source = s.nominal, stored = old.byte;
+    source[k] = ends & 1 ? s.high[k] : s.low[k];
+    source[3] = ends & 2 ? s.high[3] : s.low[3];
+    stored[k] = ends & 4 ? old.high[k] : old.low[k];
+    stored[3] = ends & 8 ? old.high[3] : old.low[3];
+    const uint8_t byte = byte_of(blended_level(state_.blend, source, stored, k));
+    pixel.low[k] = std::min(pixel.low[k], byte), pixel.high[k] = std::max(pixel.high[k], byte);
   }
 }
 

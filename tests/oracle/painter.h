@@ -17,9 +17,11 @@ struct Given {
 
 class Painter {
  public:
-  // `texture`: null when texturing is off.
-  Painter(Target& target, const raster::DrawState& state, const Texture* texture, uint32_t draw)
-      : target_(target), state_(state), texture_(texture), draw_(draw) {}
+  // `texture`: null when texturing is off. level_doubt: how far off a correct renderer's colours may be
+  // before they are rounded, levels of 255.
+  Painter(Target& target, const raster::DrawState& state, const Texture* texture, uint32_t draw,
+          Real level_doubt = kLevelDoubt)
+      : target_(target), state_(state), texture_(texture), draw_(draw), level_doubt_(level_doubt) {}
 
   // Pixels any fragment may be at: the window, cut by the scissor (spec 4.1.1, 4.1.2).
   raster::Rect window() const;
@@ -32,6 +34,7 @@ class Painter {
   void paint(int px, int py, const Surface& surface, Real coverage = 1, const Given& given = {});
 
  private:
+  struct Bytes;
   struct Pixel {
     size_t at;
     Real depth;
@@ -45,12 +48,14 @@ class Painter {
   void change_stencil(size_t at, raster::StencilOp op);
   void write(const Rgba& color, size_t at);
   void write_bytes(const Rgba& color, ColorPixel& pixel) const;
+  void blend_byte(const Bytes& s, const ColorPixel& old, size_t k, ColorPixel& pixel) const;
   void write_floats(const Rgba& color, ColorPixel& pixel) const;
 
   Target& target_;
   const raster::DrawState& state_;
   const Texture* texture_;
   uint32_t draw_;
+  Real level_doubt_;
   uint32_t primitive_ = 0;
   bool doubtful_ = false;
 };

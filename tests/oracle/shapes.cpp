@@ -55,7 +55,9 @@ void Assembly::plain_line(const Place<int64_t> (&at)[2], const Surface& surface)
   const int64_t shift = int64_t{width - 1} * 128;
   Place<int64_t> a = at[0], b = at[1];
   (x_major ? a.y : a.x) -= shift, (x_major ? b.y : b.x) -= shift;
-  const raster::Rect middle = painter_.bounds(), all = width == 1 ? middle : painter_.window();
+  // The middle of the line is clipped to the view volume; what is replicated may reach beyond.
+  const raster::Viewport& v = state_.viewport;
+  const raster::Rect middle{v.x, v.y, v.x + v.width, v.y + v.height}, all = painter_.window();
   const std::vector<LinePixel> pixels = line_pixels(a, b);
   const auto start = static_cast<uint32_t>(progress_.stipple);
   for (uint32_t i = 0; i < pixels.size(); ++i) {

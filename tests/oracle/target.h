@@ -13,7 +13,7 @@ namespace halfspace::oracle {
 struct ColorPixel {
   std::array<float, 4> level{};   // R, G, B, A before rounding, 0 .. 255
   std::array<uint8_t, 4> byte{};  // rounded; what later blending starts from
-  // What may be stored where a correct renderer's colours are off by kLevelDoubt before rounding.
+  // What may be stored where a correct renderer's colours are a little off before rounding.
   std::array<uint8_t, 4> low{}, high{};
   std::array<float, 4> value{};  // of a float framebuffer
 };
@@ -29,7 +29,7 @@ struct PixelOwner {
   bool doubtful = false;             // a test was decided by less than rounding may change
 };
 
-inline constexpr Real kLevelDoubt = 0.05L;  // of 255 levels: NUMERICS allows 0.55 after rounding
+inline constexpr Real kLevelDoubt = 0.05L;  // of 255 levels: the standard level promises 0.55 after rounding
 inline constexpr Real kDepthDoubt = 0.03L;  // of a step
 
 struct Target {

@@ -33,11 +33,15 @@ long double wrap(Wrap mode, long double s, int size) {
 
 // Equations 3.20, 3.21: s = 1 (which only clamping lets through) is the last texel. The house takes u to the
 // nearest 1/1024 of a texel first, so that s = k / N, which as a float may lie below texel k, finds it.
-int nearest_texel(long double u, int size, Wrap mode, bool* doubtful) {
-  const long double snapped = std::floor(u * 1024 + 0.5L) / 1024, nearest_edge = std::floor(snapped + 0.5L);
-  if (doubtful && std::fabs(u - (nearest_edge - 1.0L / 2048)) < 1.0L / 1024) *doubtful = true;
-  const int texel = int(std::floor(snapped));
-  return texel < size ? texel : mode == Wrap::repeat ? 0 : size - 1;
+int nearest_texel(long double u, int size, Wrap mode) {
+  const int texel = int(std::floor(std::floor(u * 1024 + 0.5L) / 1024));
+  return std::clamp(texel < size ? texel : mode == Wrap::repeat ? 0 : size - 1, 0, size - 1);
+}
+
+// The texels that a coordinate may be taken to lie in which is off by a quarter of that.
+std::array<int, 2> nearest_texels(long double u, int size, Wrap mode) {
+  constexpr long double kTexelDoubt = 1.0L / 4096;
+  return {nearest_texel(u - kTexelDoubt, size, mode), nearest_texel(u + kTexelDoubt, size, mode)};
 }
 
 // A colour as a texel of that format holds it, with 8 bits a component (spec tables 3.15 and 3.21).
@@ -99,9 +103,13 @@ Rgba sample_level(const Texture& texture, int index, Filter filter, long double 
   const long double u = wrap(texture.sampler.wrap_s, s, level.width) * level.width;
   const long double v = wrap(texture.sampler.wrap_t, t, level.height) * level.height;
   if (filter == Filter::linear) return bilinear(texture, level, u, v);
-  const int i = nearest_texel(u, level.width, texture.sampler.wrap_s, doubtful);
-  const bool flat = texture.sampler.one_dimensional;
-  return level.texel(i, nearest_texel(v, level.height, texture.sampler.wrap_t, flat ? nullptr : doubtful));
+  const Wrap wrap_s = texture.sampler.wrap_s, wrap_t = texture.sampler.wrap_t;
+  const Rgba texel =
+      level.texel(nearest_texel(u, level.width, wrap_s), nearest_texel(v, level.height, wrap_t));
+  for (const int i : nearest_texels(u, level.width, wrap_s))
+    for (const int j : nearest_texels(v, level.height, wrap_t))
+      if (doubtful && level.texel(i, j) != texel) *doubtful = true;
+  return texel;
 }
 
 namespace {

@@ -1,7 +1,9 @@
 // The renderer of raster/api, drawn by the oracle: everything at once, one pixel after the other.
 //
 // HALFSPACE_TRUTH=DIR writes the truth of every frame that is shown (tests/oracle/truth_file.h).
-// HALFSPACE_TRUTH_POSITIONS=unsnapped takes polygons' coverage from corners that are not rounded to 1/256 px.
+// HALFSPACE_TRUTH_DOUBT=0.0001 says how far off colours may be before they are rounded, in levels; 0.05 if
+// nothing does. HALFSPACE_TRUTH_POSITIONS=unsnapped takes polygons' coverage from corners that are not
+// rounded to 1/256 px.
 #include "raster/api/device.h"
 
 #include <cstdio>
@@ -28,6 +30,11 @@ oracle::Positions positions_from_environment() {
   return oracle::Positions::unsnapped;
 }
 
+oracle::Real doubt_from_environment() {
+  const char* wish = std::getenv("HALFSPACE_TRUTH_DOUBT");
+  return wish != nullptr && *wish != '\0' ? std::strtold(wish, nullptr) : oracle::kLevelDoubt;
+}
+
 // Frames are counted through all contexts of a program.
 unsigned next_frame() {
   static unsigned frames = 0;
@@ -40,6 +47,7 @@ struct Device::Impl {
   Framebuffer::Impl* framebuffer = nullptr;
   DeviceStatistics statistics;
   const oracle::Positions positions = positions_from_environment();
+  const oracle::Real level_doubt = doubt_from_environment();
   const char* const truth_directory = std::getenv("HALFSPACE_TRUTH");
   oracle::Progress progress;
   uint32_t draws = 0;  // of the frame so far
@@ -93,7 +101,8 @@ void Device::draw(const DrawPacket& packet) {
   impl_->start_work();
   ++impl_->statistics.draws;
   impl_->statistics.vertices += packet.batch.count;
-  oracle::Painter painter(impl_->target(), *packet.state, impl_->texture_of(*packet.state), ++impl_->draws);
+  oracle::Painter painter(impl_->target(), *packet.state, impl_->texture_of(*packet.state), ++impl_->draws,
+                          impl_->level_doubt);
   oracle::Assembly(painter, packet, impl_->positions, impl_->progress).run();
 }
 
@@ -101,7 +110,8 @@ void Device::draw_pixels(const PixelPacket& packet) {
   if (!impl_->framebuffer) return;
   impl_->start_work();
   ++impl_->statistics.draws;
-  oracle::Painter painter(impl_->target(), *packet.state, impl_->texture_of(*packet.state), ++impl_->draws);
+  oracle::Painter painter(impl_->target(), *packet.state, impl_->texture_of(*packet.state), ++impl_->draws,
+                          impl_->level_doubt);
   painter.start_primitive(++impl_->progress.primitives, false);
   oracle::draw_pixels(packet, impl_->target(), painter);
 }
