@@ -2,7 +2,18 @@
 
 #include <cstring>
 
+#include "gl/entry.h"
+#include "state/hint.h"
+
 namespace halfspace::gl {
+namespace {
+
+// Reached by its address only: it is no part of any ABI.
+HALFSPACE_NO_NULL_CHECK void accuracy(GLenum axis, GLenum level) {
+  if (state::Context* context = state::current_binding.context) state::set_accuracy(*context, axis, level);
+}
+
+}  // namespace
 
 Proc get_proc_address(const char* name) {
   if (!name) return nullptr;
@@ -16,6 +27,7 @@ Proc get_proc_address(const char* name) {
     else
       low = middle + 1;
   }
+  if (std::strcmp(name, "glAccuracyHALFSPACE") == 0) return reinterpret_cast<Proc>(accuracy);
   return nullptr;
 }
 

@@ -17,7 +17,7 @@ Context::Context(const VisualConfig& config, Context* share)
       texture(share ? &share->texture : nullptr),
       lists(share ? &share->lists : nullptr) {
   color_buffer.draw_buffer = color_buffer.read_buffer = config.double_buffered ? GL_BACK : GL_FRONT;
-  derived.accuracy = accuracy_from_environment();
+  hint.accuracy = accuracy_from_environment();
 }
 
 Context::~Context() {

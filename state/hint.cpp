@@ -1,5 +1,7 @@
 #include "state/hint.h"
 
+#include <iterator>
+
 #include "state/context.h"
 #include "state/get.h"
 #include "state/operations.gen.h"
@@ -24,7 +26,42 @@ GLenum* hint_of(HintState& hint, GLenum target) {
   }
 }
 
+// The rows of the axes, one after another.
+template <size_t kAxis>
+void read_axis(const Context& context, double* out) {
+  *out = kFirstLevel + int(context.hint.accuracy.*raster::kAccuracyAxes[kAxis].level);
+}
+template <size_t kAxis>
+constexpr GetRow kAxisRow{kFirstAxis + kAxis, GetKind::enumeration, 1, read_axis<kAxis>};
+
 }  // namespace
+
+raster::Level hinted_level(GLenum hint, raster::Level level) {
+  if (hint == GL_FASTEST) return raster::Level::draft;
+  return hint == GL_NICEST ? raster::Level::exact : level;
+}
+
+raster::Accuracy hinted_accuracy(const HintState& hint) {
+  raster::Accuracy accuracy = hint.accuracy;
+  accuracy.perspective = hinted_level(hint.perspective_correction, accuracy.perspective);
+  accuracy.fog = hinted_level(hint.fog, accuracy.fog);
+  return accuracy;
+}
+
+void set_accuracy(Context& context, GLenum axis, GLenum level) {
+  constexpr const char* kName = "glAccuracyHALFSPACE";
+  if (context.immediate.inside) return record_error(context, GL_INVALID_OPERATION, kName);
+  const bool all = axis == kAllAxes;
+  const bool known = all || (axis >= kFirstAxis && axis < kFirstAxis + std::size(raster::kAccuracyAxes));
+  if (!known || level < kFirstLevel || level >= kFirstLevel + std::size(raster::kLevelNames))
+    return record_error(context, GL_INVALID_ENUM, kName);
+  const auto value = raster::Level(level - kFirstLevel);
+  if (all)
+    context.hint.accuracy = raster::Accuracy::all(value);
+  else
+    context.hint.accuracy.*raster::kAccuracyAxes[axis - kFirstAxis].level = value;
+  mark_dirty(context, kDirtyRaster);
+}
 
 namespace op {
 
@@ -33,6 +70,7 @@ void hint(Context& context, GLenum target, GLenum mode) {
   const bool known = mode == GL_FASTEST || mode == GL_NICEST || mode == GL_DONT_CARE;
   if (!value || !known) return record_error(context, GL_INVALID_ENUM);
   *value = mode;
+  mark_dirty(context, kDirtyRaster);
 }
 
 }  // namespace op
@@ -48,7 +86,16 @@ std::span<const GetRow> hint_get_rows() {
       {GL_POLYGON_SMOOTH_HINT, GetKind::enumeration, 1,
        [](const Context& c, double* out) { *out = c.hint.polygon_smooth; }},
       {GL_FOG_HINT, GetKind::enumeration, 1, [](const Context& c, double* out) { *out = c.hint.fog; }},
+      kAxisRow<0>,
+      kAxisRow<1>,
+      kAxisRow<2>,
+      kAxisRow<3>,
+      kAxisRow<4>,
+      kAxisRow<5>,
+      kAxisRow<6>,
+      kAxisRow<7>,
   };
+  static_assert(std::size(raster::kAccuracyAxes) == 8);
   return kRows;
 }
 

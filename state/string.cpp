@@ -24,7 +24,7 @@ const char* text_of(GLenum name) {
     // Only what works: GL_BGRA and GL_BGR(A) images, GL_CLAMP_TO_EDGE, the blend factors of blend_square.
     case GL_EXTENSIONS:
       return "GL_ARB_window_pos GL_EXT_bgra GL_EXT_subtexture GL_EXT_texture_edge_clamp "
-             "GL_EXT_texture_object GL_EXT_vertex_array "
+             "GL_EXT_texture_object GL_EXT_vertex_array GL_HALFSPACE_accuracy "
              "GL_NV_blend_square GL_SGIS_texture_edge_clamp";
     default:
       return nullptr;

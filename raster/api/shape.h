@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "raster/api/accuracy.h"
 #include "raster/api/types.h"
 
 namespace halfspace::raster {
@@ -10,6 +12,7 @@ namespace halfspace::raster {
 struct PointState {
   float size = 1;  // pixels, > 0; clamped to [1, kMaxPointSize] where it is used
   bool smooth = false;
+  std::optional<Level> coverage = {};  // of smooth ones, in place of Accuracy::coverage
   bool operator==(const PointState&) const = default;
 };
 
@@ -19,6 +22,7 @@ struct LineState {
   bool stipple = false;
   uint16_t pattern = 0xffff;  // lowest bit first
   int repeat = 1;             // 1 .. 256
+  std::optional<Level> coverage = {};
   bool operator==(const LineState&) const = default;
 };
 
@@ -31,6 +35,7 @@ struct PolygonState {
   std::array<uint32_t, 32> pattern{};  // [y % 32], bit 31 - x % 32: a fragment is made
   bool offset_fill = false, offset_line = false, offset_point = false;
   float offset_factor = 0, offset_units = 0;
+  std::optional<Level> coverage = {};
   bool operator==(const PolygonState&) const = default;
 };
 

@@ -35,18 +35,21 @@ ShapePlan plan_shapes(const DrawState& state, Primitive mode) {
     plan.smooth_polygons = polygon.smooth;
     plan.offset_fill = polygon.offset_fill && (polygon.offset_factor != 0 || polygon.offset_units != 0);
     plan.general = plan.general || plan.smooth_polygons;
+    plan.polygon_coverage = polygon.coverage.value_or(state.accuracy.coverage);
   }
   if (lines) {
     plan.smooth_lines = state.line.smooth;
     plan.stippled_lines = state.line.stipple && state.line.pattern != 0xffff;
     plan.line_width = whole_size(state.line.width, kMaxLineWidth);
     plan.smooth_line_width = smooth_size(state.line.width, kMaxLineWidth);
+    plan.line_coverage = state.line.coverage.value_or(state.accuracy.coverage);
     plan.general = plan.general || polygons || !plan.plain_lines();
   }
   if (points) {
     plan.smooth_points = state.point.smooth;
     plan.point_size = whole_size(state.point.size, kMaxPointSize);
     plan.smooth_point_size = smooth_size(state.point.size, kMaxPointSize);
+    plan.point_coverage = state.point.coverage.value_or(state.accuracy.coverage);
     plan.general = plan.general || polygons || plan.smooth_points || plan.point_size != 1;
   }
   plan.coverage = plan.smooth_polygons || plan.smooth_lines || plan.smooth_points;

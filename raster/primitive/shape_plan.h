@@ -14,6 +14,8 @@ struct ShapePlan {
   bool offset_fill = false;
   int point_size = 1, line_width = 1;                   // pixels, where not smooth
   double smooth_point_size = 1, smooth_line_width = 1;  // pixels
+  // Of smooth ones.
+  Level point_coverage = Level::standard, line_coverage = Level::standard, polygon_coverage = Level::standard;
 
   bool plain_lines() const { return line_width == 1 && !smooth_lines && !stippled_lines; }
 };

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "raster/api/accuracy.h"
 #include "raster/tile/coverage.h"
 
 namespace halfspace::raster {
@@ -22,6 +23,8 @@ struct SmoothShape {
   LineStipple stipple;
   double length;
   Rect box;  // pixels it may touch
+  // draft: 16 samples a pixel; standard: areas, of discs by 16 rows; exact: areas.
+  Level level = Level::standard;
 };
 
 SmoothShape smooth_triangle(const int32_t (&x)[3], const int32_t (&y)[3]);

@@ -33,7 +33,8 @@ void RunCoverage(TileContext& t, int lane, const TileCoverage& coverage) {
 }
 
 // `limit`: the pixels that may be drawn, relative to the tile.
-void RunSmooth(TileContext& t, int lane, const SmoothShape& shape, const Rect& limit, bool stippled) {
+void RunSmooth(TileContext& t, int lane, SmoothShape shape, Level level, const Rect& limit, bool stippled) {
+  shape.level = level;
   alignas(64) float coverage[kBlockPixels];
   FlushPacked(t);
   const int x0 = limit.x0 > shape.box.x0 - t.x ? limit.x0 : shape.box.x0 - t.x;
@@ -69,8 +70,8 @@ void RunLine(TileContext& t, const PrimitiveRef& ref, const DrawRecord& draw, co
   const LineStipple stipple{plan.stippled_lines, state.pattern, state.repeat,
                             plan.stippled_lines ? ref.v[1] : 0};
   if (plan.smooth_lines)
-    return RunSmooth(t, lane, smooth_line(ends, plan.smooth_line_width, stipple), WindowLimit(t, draw),
-                     false);
+    return RunSmooth(t, lane, smooth_line(ends, plan.smooth_line_width, stipple), plan.line_coverage,
+                     WindowLimit(t, draw), false);
   const bool wide = plan.line_width > 1;
   if (!wide && Packs(t, lane)) {
     PixelList list;
@@ -116,8 +117,8 @@ bool RunWaitingPoint(TileContext& t, const Segment& segment, const DrawRecord& d
 void RunPoint(TileContext& t, const DrawRecord& draw, const ShapeCorners& c, int lane) {
   const ShapePlan& plan = draw.shape;
   if (plan.smooth_points)
-    return RunSmooth(t, lane, smooth_point(c.x[0], c.y[0], plan.smooth_point_size), WindowLimit(t, draw),
-                     false);
+    return RunSmooth(t, lane, smooth_point(c.x[0], c.y[0], plan.smooth_point_size), plan.point_coverage,
+                     WindowLimit(t, draw), false);
   TileCoverage coverage;
   cover_point(c.x[0], c.y[0], plan.point_size, t.x, t.y, plan.point_size > 1 ? draw.window : draw.bounds,
               coverage);
@@ -133,7 +134,8 @@ void RunShape(TileContext& t, const PrimitiveRef& ref, const Segment& segment, c
     case PrimitiveKind::point:
       return RunPoint(t, draw, c, lane);
     default:
-      return RunSmooth(t, lane, smooth_triangle(c.x, c.y), t.limit, draw.state->polygon.stipple);
+      return RunSmooth(t, lane, smooth_triangle(c.x, c.y), draw.shape.polygon_coverage, t.limit,
+                       draw.state->polygon.stipple);
   }
 }
 

@@ -132,9 +132,9 @@ raster::PolygonMode polygon_mode_of(GLenum mode) {
 
 void derive_shapes(const Context& context, DrawState& out) {
   const PolygonState& p = context.polygon;
-  out.point = {context.point.size, context.point.smooth};
+  out.point = {context.point.size, context.point.smooth, {}};
   const LineState& line = context.line;
-  out.line = {line.width, line.smooth, line.stipple, line.pattern, line.repeat};
+  out.line = {line.width, line.smooth, line.stipple, line.pattern, line.repeat, {}};
   out.polygon = {polygon_mode_of(p.mode[0]),
                  polygon_mode_of(p.mode[1]),
                  p.smooth,
@@ -144,7 +144,20 @@ void derive_shapes(const Context& context, DrawState& out) {
                  p.offset_line,
                  p.offset_point,
                  p.offset_factor,
-                 p.offset_units};
+                 p.offset_units,
+                 {}};
+}
+
+void derive_accuracy(const Context& context, DrawState& out) {
+  const HintState& hint = context.hint;
+  out.accuracy = hinted_accuracy(hint);
+  const auto coverage = [&](GLenum mode) -> std::optional<raster::Level> {
+    if (mode == GL_DONT_CARE) return std::nullopt;
+    return hinted_level(mode, out.accuracy.coverage);
+  };
+  out.point.coverage = coverage(hint.point_smooth);
+  out.line.coverage = coverage(hint.line_smooth);
+  out.polygon.coverage = coverage(hint.polygon_smooth);
 }
 
 void derive_clip_planes(const Context& context, DrawState& out) {
@@ -210,12 +223,12 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   if (derived.dirty & kDirtyRaster) {
     derive_raster(context, *next);
     derive_shapes(context, *next);
+    derive_accuracy(context, *next);
   }
   if (derived.dirty & kDirtyClipPlanes) derive_clip_planes(context, *next);
   if (derived.dirty & kDirtyLighting) derive_lighting(context, *next);
   if (derived.dirty & kDirtyFragment) derive_fragment(context, *next);
   if (derived.dirty & kDirtyTexture) derive_texture(context, *next);
-  next->accuracy = derived.accuracy;
   derived.texture_revision = revision;
   derived.dirty = 0;
   derived.state = std::move(next);

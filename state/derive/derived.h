@@ -16,7 +16,7 @@ struct Context;
 enum DirtyBits : uint32_t {
   kDirtyTransform = 1,  // modelview, projection
   kDirtyViewport = 2,   // viewport, depth range
-  kDirtyRaster = 4,     // points, lines, polygons, shade model, scissor
+  kDirtyRaster = 4,     // points, lines, polygons, shade model, scissor, hints
   kDirtyFragment = 8,   // alpha test, depth, blend, colour mask
   kDirtyTexture = 16,   // texture enables, bindings, objects, environment, texture matrix
   kDirtyLighting = 32,  // lights, materials, light model, colour material
@@ -27,7 +27,6 @@ enum DirtyBits : uint32_t {
 struct DerivedState {
   uint32_t dirty = kDirtyAll;
   uint64_t texture_revision = 0;  // of the texture unit in `state`
-  raster::Accuracy accuracy;
   std::shared_ptr<const raster::DrawState> state;
 };
 

@@ -221,6 +221,43 @@ TEST(SmoothPoints, CoverTheirDisc) {
   }
 }
 
+// Each pixel against many chords, in long double; and all of them against the disc.
+TEST(SmoothPoints, AreasAtTheExactLevelAreTheIntegrals) {
+  Random random(12);
+  for (int round = 0; round < (long_tests() ? 300 : 12); ++round) {
+    const double size = double(random.integer(8, 200)) / 8;
+    const auto x = int32_t(random.integer(0, 255) + 40 * 256), y = int32_t(random.integer(0, 255) + 40 * 256);
+    SmoothShape shape = smooth_point(x, y, size);
+    shape.level = Level::exact;
+    const double expected = 3.14159265358979323846 * size * size / 4;
+    ASSERT_NEAR(total(shape), expected, 1e-6 * expected + 1e-5) << size;
+    float coverage[64];
+    const int left = shape.box.x0, low = shape.box.y0;
+    cover_block(shape, left, low, coverage);
+    for (int i = 0; i < 64; ++i) {
+      constexpr int kRows = 40000;
+      long double area = 0;
+      for (int row = 0; row < kRows; ++row) {
+        const long double v = low + i / 8 + (row + 0.5L) / kRows - y / 256.0L, r = (long double)(size) / 2;
+        if (v * v >= r * r) continue;
+        const long double half = std::sqrt(r * r - v * v), from = left + i % 8 - x / 256.0L;
+        area += std::max(std::min(from + 1, half) - std::max(from, -half), 0.0L) / kRows;
+      }
+      ASSERT_NEAR(double(coverage[i]), double(area), 3e-6) << size << ", pixel " << i;
+    }
+  }
+}
+
+// Draft counts samples: each pixel within what the edge of a sample's square can hide.
+TEST(SmoothPoints, SamplesAtTheDraftLevelAreNear) {
+  for (double size : {2.0, 5.5, 20.0}) {
+    SmoothShape shape = smooth_point(100 * 256 + 77, 90 * 256 + 130, size);
+    const double area = total(shape);
+    shape.level = Level::draft;
+    EXPECT_NEAR(total(shape), area, 0.06 * area + 0.2) << size;
+  }
+}
+
 TEST(SmoothLines, CoverTheirRectangle) {
   Random random(8);
   for (int round = 0; round < 300; ++round) {
