@@ -70,9 +70,9 @@ struct FragmentParams {
 
 // Values handed from stage to stage, one array of 64 a slot. Colours are in 0..255, unrounded; kOffset holds int32;
 // kW is clip-space w. kMipKey is the mip level, or -1 for the magnification filter where that is another one; kMipBlend
-// the share of the level after. kLow...: what the float leaves of a double (wide.inl).
+// the share of the level after. kPixel: the bytes of an 8-bit pixel. kLow...: what the float leaves of a double (wide.inl).
 enum Slot {
-  kR, kG, kB, kA, kS, kT, kOffset, kW, kTexR, kTexG, kTexB, kTexA, kLambda, kMipKey, kMipBlend,
+  kR, kG, kB, kA, kS, kT, kOffset, kW, kTexR, kTexG, kTexB, kTexA, kLambda, kMipKey, kMipBlend, kPixel,
   kLowR, kLowG, kLowB, kLowA, kLowS, kLowT, kLowTexR, kLowTexG, kLowTexB, kLowTexA, kLowLambda, kSlotCount
 };
 

@@ -16,6 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #include "raster/exact_math.inl"
 #include "raster/fragment/lanes.inl"
+#include "raster/fragment/bytes.inl"
 #include "raster/fragment/wide.inl"
 #include "raster/fragment/stages/alpha_test.inl"
 #include "raster/fragment/stages/blend.inl"
@@ -38,7 +39,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 enum SlotGroup : unsigned {
   kNone = 0, kColor = 1, kCoord = 2, kTexel = 4, kLevel = 8, kPlace = 16, kEyeDepth = 32, kMip = 64, kTexelAt = 2048,
-  kColorLow = 128, kCoordLow = 256, kTexelLow = 512, kLevelLow = 1024,  // what those floats leave of a double
+  kRounded = 4096, kColorLow = 128, kCoordLow = 256, kTexelLow = 512, kLevelLow = 1024,  // what those floats leave of a double
 };
 
 template <unsigned kGroups, unsigned kGroup, int kFirst, int kCount>
@@ -55,6 +56,7 @@ HWY_INLINE void LoadSlots(const BlockContext& c, int i, Lanes& v) {
   LoadGroup<kGroups, kTexel, kTexR, 4>(c, i, v);
   LoadGroup<kGroups, kLevel, kLambda, 1>(c, i, v);
   LoadGroup<kGroups, kMip, kMipKey, 2>(c, i, v);
+  LoadGroup<kGroups, kRounded, kPixel, 1>(c, i, v);
   LoadGroup<kGroups, kTexelAt, kOffset, 1>(c, i, v);
   LoadGroup<kGroups, kColorLow, kLowR, 4>(c, i, v);
   LoadGroup<kGroups, kCoordLow, kLowS, 2>(c, i, v);
@@ -76,6 +78,7 @@ HWY_INLINE void StoreSlots(const Lanes& v, int i, BlockContext& c) {
   StoreGroup<kGroups, kTexel, kTexR, 4>(v, i, c);
   StoreGroup<kGroups, kLevel, kLambda, 1>(v, i, c);
   StoreGroup<kGroups, kMip, kMipKey, 2>(v, i, c);
+  StoreGroup<kGroups, kRounded, kPixel, 1>(v, i, c);
   StoreGroup<kGroups, kTexelAt, kOffset, 1>(v, i, c);
   StoreGroup<kGroups, kColorLow, kLowR, 4>(v, i, c);
   StoreGroup<kGroups, kCoordLow, kLowS, 2>(v, i, c);
@@ -134,26 +137,31 @@ constexpr unsigned TakenSlots() {
   ((taken |= BodyOf<ids>::kReads & ~written, written |= BodyOf<ids>::kWrites), ...);
   return taken;
 }
-// Slots it leaves for those after it: all it wrote, but not what a reader of the same run has used up. Texels are used
-// up by the environment, coordinates by a lookup, the colour by the write that ends the list.
+// What a stage has used up of what it reads: texels in the environment, coordinates in a lookup, the bytes in the write
+// that ends the list. Of colours, those that were rounded or written.
+template <StageId id>
+constexpr unsigned UsedUp() {
+  using Body = BodyOf<id>;
+  const bool ends_color = Body::kWrites == kRounded || (Body::kWrites == kNone && !Body::Type::kKills);
+  return Body::kReads & (ends_color ? ~0u : ~unsigned{kColor});
+}
+// Slots a run leaves for those after it: all it wrote, but not what a later one of the same run has used up.
 template <StageId... ids>
 constexpr unsigned LeftSlots() {
   unsigned left = 0;
-  ((left = (left & ~(BodyOf<ids>::kReads & ~unsigned{kColor})) | BodyOf<ids>::kWrites,
-    left = BodyOf<ids>::kWrites == kNone && BodyOf<ids>::kReads == kColor && !BodyOf<ids>::Type::kKills ? kNone : left),
-   ...);
+  ((left = (left & ~UsedUp<ids>()) | BodyOf<ids>::kWrites), ...);
   return left;
 }
 
 template <class L, StageId... ids>
-void RunStages(BlockContext& c) {
-  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
-  static_assert(MemoryIsFilled<ids...>());
+HWY_INLINE void RunGroups(BlockContext& c) {
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...), kFull = IsFull<L>;
   const OnceAll<L, ids...> once(c);
-  uint64_t live = L::Live(c), left = 0;  // locals: through memory, each row would wait for the one before
+  const uint64_t live = L::Live(c);  // a local, as is `left`: through memory, each row would wait for the one before
+  uint64_t left = 0;
   for (int i = 0; i < kBlockPixels; i += kLanes) {
-    const uint64_t group = live >> i & kGroupBits;
-    if (group == 0) continue;
+    const uint64_t group = kFull ? kGroupBits : live >> i & kGroupBits;
+    if (!kFull && group == 0) continue;
     Lanes v;
     v.live = MaskFromBits(group);
     LoadSlots<TakenSlots<ids...>()>(c, i, v);
@@ -162,6 +170,22 @@ void RunStages(BlockContext& c) {
     if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << i;
   }
   if constexpr (kKills) c.live = left;
+}
+
+// Stages that store pixels say so.
+template <class Body>
+concept StoresPixels = requires { Body::kStoresPixels; };
+
+// Where pixels are stored, a block that is live all over has code of its own.
+template <class L, StageId... ids>
+void RunStages(BlockContext& c) {
+  static_assert(MemoryIsFilled<ids...>());
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  constexpr bool kStores = (StoresPixels<typename BodyOf<ids>::Type> || ...);
+  if constexpr (IsBlock<L> && kStores && !kKills) {
+    if (c.live == ~uint64_t{0}) return RunGroups<FullLanes, ids...>(c);
+  }
+  RunGroups<L, ids...>(c);
 }
 
 // A kernel and the stages it runs; `packed` is null where the lanes cannot be packed.

@@ -34,6 +34,16 @@ HWY_INLINE hn::Vec<To> DemoteGroup(To d, const VD& v) {
   }
 }
 
+// The same to int32, towards zero, for values it can hold; anything else gives some int32. Highway's DemoteTo saturates.
+HWY_INLINE VI TruncateGroupInRange(const VD& v) {
+#if HWY_TARGET == HWY_AVX3
+  using Half = hn::Vec<hn::Half<DI>>;
+  return hn::Combine(DI(), Half{_mm512_cvttpd_epi32(v.part[1].raw)}, Half{_mm512_cvttpd_epi32(v.part[0].raw)});
+#else
+  return DemoteGroup(DI(), v);
+#endif
+}
+
 // Towards zero, for values an int32 can hold; anything else gives some int32. Highway's ConvertTo saturates,
 // which takes four instructions more.
 HWY_INLINE VI TruncateInRange(VF v) {
@@ -187,15 +197,35 @@ struct BlockLanes {
   static HWY_INLINE uint64_t Live(const BlockContext& c) { return c.live; }
   using Plane = BlockPlane;
   using PlaneDouble = BlockPlaneDouble;
-  static HWY_INLINE VF FlatColor(const BlockContext& c, int channel, int) {
-    return hn::Set(DF(), c.setup->flat[channel][c.lane]);
-  }
+  struct FlatColor {
+    VF color[4];
+    HWY_INLINE explicit FlatColor(const BlockContext& c) {
+      for (int k = 0; k < 4; ++k) color[k] = hn::Set(DF(), c.setup->flat[k][c.lane]);
+    }
+    HWY_INLINE VF At(int channel, int) const { return color[channel]; }
+  };
   static HWY_INLINE void StoreRgba8(const BlockContext& c, int i, VI packed, MF live) {
     int32_t* memory = reinterpret_cast<int32_t*>(c.color) + i;
     const DI d;
     hn::Store(hn::IfThenElse(hn::RebindMask(d, live), packed, hn::Load(d, memory)), d, memory);
   }
 };
+
+// The same where all of the block is live.
+struct FullLanes : BlockLanes {
+  static HWY_INLINE void StoreRgba8(const BlockContext& c, int i, VI packed, MF) {
+    hn::Store(packed, DI(), reinterpret_cast<int32_t*>(c.color) + i);
+  }
+};
+
+template <class L>
+inline constexpr bool IsBlock = false;
+template <>
+inline constexpr bool IsBlock<BlockLanes> = true;
+template <class L>
+inline constexpr bool IsFull = false;
+template <>
+inline constexpr bool IsFull<FullLanes> = true;
 
 // Depths that the fragments of an image bring along.
 struct GivenDepth {
@@ -232,9 +262,11 @@ struct PackedLanes {
   }
   using Plane = PackedPlane;
   using PlaneDouble = BlockPlaneDouble;  // never used: what needs doubles is not packed
-  static HWY_INLINE VF FlatColor(const BlockContext& c, int channel, int i) {
-    return PackedPlane(c, c.params->color_plane + channel).At(i);
-  }
+  struct FlatColor {
+    const BlockContext& c;
+    HWY_INLINE explicit FlatColor(const BlockContext& context) : c(context) {}
+    HWY_INLINE VF At(int channel, int i) const { return PackedPlane(c, c.params->color_plane + channel).At(i); }
+  };
   static HWY_INLINE void StoreRgba8(const BlockContext& c, int i, VI packed, MF) {
     alignas(64) int32_t pixels[kMaxLanes];
     hn::Store(packed, DI(), pixels);

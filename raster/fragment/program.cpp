@@ -327,6 +327,21 @@ StageId fog_stage(const DrawState& state, unsigned variant) {
   return kFog[variant];
 }
 
+// Rounding holds colours to their range, so that a colour which comes right before it need not do so.
+void add_rounding(StageList& list) {
+  if (list.count > 0) {
+    StageId& last = list.ids[static_cast<size_t>(list.count - 1)];
+    if (last == StageId::color_affine) last = StageId::color_affine_open;
+    if (last == StageId::color_perspective) last = StageId::color_perspective_open;
+  }
+  list.add(StageId::round_rgba8);
+}
+
+StageId blend_stage(const BlendState& blend) {
+  const bool over = blend.src == BlendFactor::src_alpha && blend.dst == BlendFactor::one_minus_src_alpha;
+  return over ? StageId::blend_over_rgba8 : StageId::blend_rgba8;
+}
+
 bool writes_color(const DrawState& state) { return !state.color_mask.none() && state.color_targets != 0; }
 
 }  // namespace
@@ -352,11 +367,13 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
   list.tail = list.count;
   if (!writes_color(state)) return list;
   const bool rgba8 = format == ColorFormat::rgba8;
+  // What is wide stays so up to memory; but a logical operation takes bytes.
+  if (rgba8 && (!wide || has_logic_op(state.logic_op))) add_rounding(list);
   if (state.logic_op.enabled) {
     if (has_logic_op(state.logic_op)) list.add(rgba8 ? StageId::logic_op_rgba8 : StageId::logic_op_rgba32f);
   } else if (blends(state.blend)) {
     if (wide) list.add(rgba8 ? StageId::blend_rgba8_wide : StageId::blend_rgba32f_wide);
-    else list.add(rgba8 ? StageId::blend_rgba8 : StageId::blend_rgba32f);
+    else list.add(rgba8 ? blend_stage(state.blend) : StageId::blend_rgba32f);
   }
   // A logic op leaves whole levels in the floats.
   if (wide && !has_logic_op(state.logic_op)) list.add(rgba8 ? StageId::write_rgba8_wide : StageId::write_rgba32f_wide);

@@ -20,28 +20,56 @@ HWY_INLINE V BlendWeight(D d, BlendFactor factor, const V* s, const V* dst, int 
   return one;
 }
 
-HWY_INLINE VI RoundToByte(VF v) { return TruncateInRange(hn::Add(v, hn::Set(DF(), 0.5f))); }
+HWY_INLINE WidePixel BlendWeights(BlendFactor factor, const WidePixel& s, const WidePixel& dst) {
+  const VU most = hn::Set(DU(), 0x00ff00ffu);
+  const auto rest = [&](const WidePixel& p) HWY_ATTR { return WidePixel{hn::Xor(p.rb, most), hn::Xor(p.ga, most)}; };
+  const auto alpha = [](const WidePixel& p) HWY_ATTR {
+    const VU twice = Twice(hn::ShiftRight<16>(p.ga));
+    return WidePixel{twice, twice};
+  };
+  switch (factor) {
+    case BlendFactor::zero: return {hn::Zero(DU()), hn::Zero(DU())};
+    case BlendFactor::one: return {most, most};
+    case BlendFactor::src_color: return s;
+    case BlendFactor::one_minus_src_color: return rest(s);
+    case BlendFactor::dst_color: return dst;
+    case BlendFactor::one_minus_dst_color: return rest(dst);
+    case BlendFactor::src_alpha: return alpha(s);
+    case BlendFactor::one_minus_src_alpha: return rest(alpha(s));
+    case BlendFactor::dst_alpha: return alpha(dst);
+    case BlendFactor::one_minus_dst_alpha: return rest(alpha(dst));
+    case BlendFactor::src_alpha_saturate: {
+      const VU least = Min16(alpha(s).rb, rest(alpha(dst)).rb);
+      return {least, hn::Or(hn::And(least, hn::Set(DU(), 0xffffu)), hn::Set(DU(), 0x00ff0000u))};
+    }
+  }
+  return {most, most};
+}
 
+// kOver: by the source's alpha, as most blending is; else as the draw says.
+template <bool kOver>
 struct BlendRgba8 {
   static constexpr bool kKills = false, kPacks = false;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    const DI d;
-    const VI old = hn::BitCast(d, hn::Load(DU(), c.color + i));
-    const VI byte = hn::Set(d, 255);
-    const VI dst[4] = {hn::And(old, byte), hn::And(hn::ShiftRight<8>(old), byte),
-                       hn::And(hn::ShiftRight<16>(old), byte), hn::And(hn::ShiftRight<24>(old), byte)};
-    VI s[4];
-    for (int k = 0; k < 4; ++k) s[k] = RoundToByte(v.slot[kR + k]);
-    for (int k = 0; k < 4; ++k) {
-      const VI fs = BlendWeight(d, c.params->blend_src, s, dst, k, byte);
-      const VI fd = BlendWeight(d, c.params->blend_dst, s, dst, k, byte);
-      const VI sum = hn::Min(hn::Add(hn::Mul(s[k], fs), hn::Mul(dst[k], fd)), hn::Set(d, 255 * 255));
-      const VI x = hn::Add(sum, hn::Set(d, 128));
-      v.slot[kR + k] = hn::ConvertTo(DF(), hn::ShiftRight<8>(hn::Add(x, hn::ShiftRight<8>(x))));
-    }
+    const DU d;
+    const WidePixel s = Widen(hn::BitCast(d, v.slot[kPixel])), dst = Widen(hn::Load(d, c.color + i));
+    const WidePixel fs = BlendWeights(kOver ? BlendFactor::src_alpha : c.params->blend_src, s, dst);
+    const WidePixel fd = BlendWeights(kOver ? BlendFactor::one_minus_src_alpha : c.params->blend_dst, s, dst);
+    const VU rb = Blended(s.rb, fs.rb, dst.rb, fd.rb), ga = Blended(s.ga, fs.ga, dst.ga, fd.ga);
+    const VU high = hn::Set(d, 0xff00ff00u);
+    v.slot[kPixel] = hn::BitCast(DF(), hn::Or(hn::ShiftRight<8>(hn::And(rb, high)), hn::And(ga, high)));
+  }
+
+ private:
+  // In the high byte of each half.
+  static HWY_INLINE VU Blended(VU s, VU fs, VU dst, VU fd) {
+    const VU from_s = Mul16(s, fs), from_d = Mul16(dst, fd);
+    if constexpr (kOver) return Divided255InHighByte(hn::Add(from_s, from_d));
+    const VU most = hn::Set(DU(), 255u * 255u * 0x10001u);
+    return Divided255InHighByte(Min16(SaturatedAdd16(from_s, from_d), most));
   }
 };
 

@@ -2,21 +2,27 @@
 
 struct ColorConstant {
   static constexpr bool kKills = false, kPacks = true;
+  // Out here the compiler takes what is worked out from it, too, out of the loop.
   template <class L>
-  using Once = NothingOnce;
+  struct Once {
+    VF color[4];
+    HWY_INLINE explicit Once(const BlockContext& c) {
+      for (int k = 0; k < 4; ++k) color[k] = hn::Set(DF(), c.params->constant_color[k]);
+    }
+  };
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
-    for (int k = 0; k < 4; ++k) v.slot[kR + k] = hn::Set(DF(), c.params->constant_color[k]);
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int, Lanes& v) {
+    for (int k = 0; k < 4; ++k) v.slot[kR + k] = once.color[k];
   }
 };
 
 struct ColorFlat {
   static constexpr bool kKills = false, kPacks = true;
   template <class L>
-  using Once = NothingOnce;
+  using Once = typename L::FlatColor;
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    for (int k = 0; k < 4; ++k) v.slot[kR + k] = L::FlatColor(c, k, i);
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
+    for (int k = 0; k < 4; ++k) v.slot[kR + k] = once.At(k, i);
   }
 };
 
@@ -24,7 +30,8 @@ struct ColorFlat {
 inline constexpr unsigned kPreciseDivide = 4;
 
 // kVariant: bits of Variant. Perspective-correct: colour/w over 1/w, one divide a pixel; kAtW: none, w is there already.
-template <unsigned kVariant, bool kAtW = false>
+// kOpen: not held to the range, where what comes next does that.
+template <unsigned kVariant, bool kAtW = false, bool kOpen = false>
 struct ColorSmooth {
   static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
   static constexpr bool kDivides = (kVariant & kAffine) == 0;
@@ -68,7 +75,7 @@ struct ColorSmooth {
   }
 
  private:
-  static HWY_INLINE VF Clamp(VF x) { return hn::Min(hn::Max(x, hn::Zero(DF())), hn::Set(DF(), 255.0f)); }
+  static HWY_INLINE VF Clamp(VF x) { return kOpen ? x : hn::Min(hn::Max(x, hn::Zero(DF())), hn::Set(DF(), 255.0f)); }
   static HWY_INLINE VF InFloat(VF value, VF w) { return Clamp(kDivides ? hn::Mul(value, w) : value); }
   static HWY_INLINE VF InDouble(VD value, const VD& inv_w) {
     if constexpr (kDivides)

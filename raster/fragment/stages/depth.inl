@@ -12,7 +12,7 @@ struct DepthTest {
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
     const DI d;
     int32_t* memory = reinterpret_cast<int32_t*>(c.depth) + i;
-    const VI z = hn::Min(hn::Max(DemoteGroup(d, once.depth.At(i)), hn::Zero(d)),
+    const VI z = hn::Min(hn::Max(TruncateGroupInRange(once.depth.At(i)), hn::Zero(d)),
                          hn::Set(d, static_cast<int32_t>(kDepthMax)));
     const VI old = hn::Load(d, memory);
     v.live = hn::And(v.live, hn::RebindMask(DF(), Compare<F>(z, old)));

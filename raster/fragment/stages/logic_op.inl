@@ -30,12 +30,8 @@ struct LogicOpRgba8 {
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
     const DI di;
-    const VI old = hn::Load(di, reinterpret_cast<const int32_t*>(c.color) + i), byte = hn::Set(di, 255);
-    const VI dst[4] = {old, hn::ShiftRight<8>(old), hn::ShiftRight<16>(old), hn::ShiftRight<24>(old)};
-    for (int k = 0; k < 4; ++k) {
-      const VI result = Combined(c.params->logic_op, RoundToByte(v.slot[kR + k]), dst[k]);
-      v.slot[kR + k] = hn::ConvertTo(DF(), hn::And(result, byte));
-    }
+    const VI old = hn::Load(di, reinterpret_cast<const int32_t*>(c.color) + i);
+    v.slot[kPixel] = hn::BitCast(DF(), Combined(c.params->logic_op, hn::BitCast(di, v.slot[kPixel]), old));
   }
 };
 

@@ -1,14 +1,23 @@
-// To memory (spec 4.2): round to nearest, and only the channels the colour mask lets through.
+// To memory (spec 4.2), and only the channels the colour mask lets through. Bytes are rounded to nearest (spec 2.14.9).
+
+struct RoundRgba8 {
+  static constexpr bool kKills = false, kPacks = true;
+  template <class L>
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>&, int, Lanes& v) {
+    v.slot[kPixel] = hn::BitCast(DF(), RoundToPixel(v.slot[kR], v.slot[kG], v.slot[kB], v.slot[kA]));
+  }
+};
 
 template <bool kMasked>
 struct WriteRgba8 {
-  static constexpr bool kKills = false, kPacks = !kMasked;
+  static constexpr bool kKills = false, kPacks = !kMasked, kStoresPixels = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    VI packed = hn::Or(hn::Or(RoundToByte(v.slot[kR]), hn::ShiftLeft<8>(RoundToByte(v.slot[kG]))),
-                       hn::Or(hn::ShiftLeft<16>(RoundToByte(v.slot[kB])), hn::ShiftLeft<24>(RoundToByte(v.slot[kA]))));
+    VI packed = hn::BitCast(DI(), v.slot[kPixel]);
     if constexpr (kMasked) {
       const DI d;
       const VI old = hn::Load(d, reinterpret_cast<const int32_t*>(c.color) + i);

@@ -1,0 +1,77 @@
+// Pixels of 8-bit surfaces, a 32-bit lane each, R in the lowest byte. Compiled once per ISA level.
+
+// Channels in 0..255, unrounded, to the nearest bytes; what lies beyond the range is held to it.
+HWY_INLINE VI RoundToByte(VF v) { return TruncateInRange(hn::Add(v, hn::Set(DF(), 0.5f))); }
+
+HWY_INLINE VI RoundToPixel(VF r, VF g, VF b, VF a) {
+  const VI channel[4] = {RoundToByte(r), RoundToByte(g), RoundToByte(b), RoundToByte(a)};
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4
+  // Packing saturates. In each 128 bits: four R, four G, four B, four A.
+  const hn::Repartition<int16_t, DI> words;
+  const auto rg = hn::ReorderDemote2To(words, channel[0], channel[1]);
+  const auto ba = hn::ReorderDemote2To(words, channel[2], channel[3]);
+  const hn::Repartition<uint8_t, DI> bytes;
+#if HWY_TARGET == HWY_AVX3
+  const hn::Vec<decltype(bytes)> planar{_mm512_packus_epi16(rg.raw, ba.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  const hn::Vec<decltype(bytes)> planar{_mm256_packus_epi16(rg.raw, ba.raw)};
+#else
+  const hn::Vec<decltype(bytes)> planar{_mm_packus_epi16(rg.raw, ba.raw)};
+#endif
+  alignas(16) static constexpr uint8_t kInterleave[16] = {0, 4, 8,  12, 1, 5, 9,  13,
+                                                          2, 6, 10, 14, 3, 7, 11, 15};
+  return hn::BitCast(DI(), hn::TableLookupBytes(planar, hn::LoadDup128(bytes, kInterleave)));
+#else
+  const DI d;
+  const auto held = [&](int k)
+                        HWY_ATTR { return hn::Min(hn::Max(channel[k], hn::Zero(d)), hn::Set(d, 255)); };
+  return hn::Or(hn::Or(held(0), hn::ShiftLeft<8>(held(1))),
+                hn::Or(hn::ShiftLeft<16>(held(2)), hn::ShiftLeft<24>(held(3))));
+#endif
+}
+
+// Two channels a lane, 16 bits each: r and b, g and a.
+struct WidePixel {
+  VU rb, ga;
+};
+
+HWY_INLINE WidePixel Widen(VU pixel) {
+  const VU low = hn::Set(DU(), 0x00ff00ffu);
+  return {hn::And(pixel, low), hn::And(hn::ShiftRight<8>(pixel), low)};
+}
+
+#if HWY_TARGET == HWY_SCALAR
+template <class F>
+HWY_INLINE VU ForHalves(VU a, VU b, F f) {
+  const uint32_t x = hn::GetLane(a), y = hn::GetLane(b);
+  return hn::Set(DU(), (f(x & 0xffffu, y & 0xffffu) & 0xffffu) | f(x >> 16, y >> 16) << 16);
+}
+HWY_INLINE VU Mul16(VU a, VU b) {
+  return ForHalves(a, b, [](uint32_t x, uint32_t y) { return x * y; });
+}
+HWY_INLINE VU Min16(VU a, VU b) {
+  return ForHalves(a, b, [](uint32_t x, uint32_t y) { return x < y ? x : y; });
+}
+HWY_INLINE VU SaturatedAdd16(VU a, VU b) {
+  return ForHalves(a, b, [](uint32_t x, uint32_t y) { return x + y < 0xffffu ? x + y : 0xffffu; });
+}
+#else
+using DU16 = hn::Repartition<uint16_t, DU>;
+HWY_INLINE VU Mul16(VU a, VU b) {
+  return hn::BitCast(DU(), hn::Mul(hn::BitCast(DU16(), a), hn::BitCast(DU16(), b)));
+}
+HWY_INLINE VU Min16(VU a, VU b) {
+  return hn::BitCast(DU(), hn::Min(hn::BitCast(DU16(), a), hn::BitCast(DU16(), b)));
+}
+HWY_INLINE VU SaturatedAdd16(VU a, VU b) {
+  return hn::BitCast(DU(), hn::SaturatedAdd(hn::BitCast(DU16(), a), hn::BitCast(DU16(), b)));
+}
+#endif
+HWY_INLINE VU Twice(VU half) { return hn::Or(half, hn::ShiftLeft<16>(half)); }
+
+// x / 255 rounded to the nearest, for 0 <= x <= 255 * 255. The high byte of each half.
+HWY_INLINE VU Divided255InHighByte(VU x) {
+  const VU low = hn::Set(DU(), 0x00ff00ffu);
+  const VU y = hn::Add(x, hn::Set(DU(), 0x00800080u));
+  return hn::Add(y, hn::And(hn::ShiftRight<8>(y), low));
+}
