@@ -1,11 +1,6 @@
 // Set-up, second half: edges and planes of eight primitives at once, in double. Compiled once per ISA level.
 // All integers here stay below 2^53, so edge values are exact.
 
-using DD = hn::CappedTag<double, kSetupLanes>;
-using DDi = hn::Rebind<int32_t, DD>;  // as many int32 lanes as DD has doubles
-using DDf = hn::Rebind<float, DD>;
-using VD = hn::Vec<DD>;
-inline constexpr int kDoubleLanes = static_cast<int>(hn::MaxLanes(DD()));
 inline constexpr double kDepthScale = static_cast<double>(kDepthMax);
 
 inline constexpr double kTexelTolerance = 1.0 / 1024;  // texels of level 0 the float path may be off
@@ -17,7 +12,6 @@ struct CornerVectors {
 };
 
 HWY_INLINE VD LoadInt(const int32_t* from) { return hn::PromoteTo(DD(), hn::Load(DDi(), from)); }
-HWY_INLINE VD LoadFloat(const float* from) { return hn::PromoteTo(DD(), hn::Load(DDf(), from)); }
 HWY_INLINE void StoreInt(VD v, int32_t* to) { hn::Store(hn::DemoteTo(DDi(), v), DDi(), to); }
 
 // Edge from corner a to corner b of a counter-clockwise triangle at the tile's first pixel centre. Top-left rule,
@@ -94,7 +88,7 @@ struct PlaneMaker {
   HWY_INLINE void TakeBackSnapping(const SetupInput& in, int i, VD& area) {
     const DD d;
     VD rx[3], ry[3];
-    for (int k = 0; k < 3; ++k) rx[k] = LoadFloat(in.rest_x[k] + i), ry[k] = LoadFloat(in.rest_y[k] + i);
+    for (int k = 0; k < 3; ++k) rx[k] = hn::Load(d, in.rest_x[k] + i), ry[k] = hn::Load(d, in.rest_y[k] + i);
     const VD x1 = hn::Add(ex1, hn::Sub(rx[1], rx[0])), y1 = hn::Add(ey1, hn::Sub(ry[1], ry[0]));
     const VD x2 = hn::Add(ex2, hn::Sub(rx[2], rx[0])), y2 = hn::Add(ey2, hn::Sub(ry[2], ry[0]));
     const VD true_area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
@@ -202,7 +196,7 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
   maker.StoreInvW(i, out);
   if (layout.color >= 0) {
     for (int a = layout.color; a < layout.color + 4; ++a) {
-      for (int k = 0; k < 3; ++k) value[k] = hn::Mul(LoadFloat(in.attribute[a][k] + i), hn::Set(d, 255.0));
+      for (int k = 0; k < 3; ++k) value[k] = hn::Mul(hn::Load(d, in.attribute[a][k] + i), hn::Set(d, 255.0));
       maker.StoreAttribute(value, 2 + a, i, false, hn::Set(d, kColorTolerance), out);
     }
   }
@@ -210,7 +204,7 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
     const double size[3] = {static_cast<double>(params.levels[0].width), static_cast<double>(params.levels[0].height), 1};
     const Wrap wrap[3] = {params.sampler.wrap_s, params.sampler.wrap_t, Wrap::clamp};
     for (int a = 0; a < (layout.projective ? 3 : 2); ++a) {
-      for (int k = 0; k < 3; ++k) value[k] = LoadFloat(in.attribute[layout.tex_coord + a][k] + i);
+      for (int k = 0; k < 3; ++k) value[k] = hn::Load(d, in.attribute[layout.tex_coord + a][k] + i);
       if (!layout.projective && wrap[a] == Wrap::repeat) TakeWholeTurns(value);
       maker.StoreAttribute(value, 2 + layout.tex_coord + a, i, layout.projective, hn::Set(d, kTexelTolerance / size[a]),
                            out);
@@ -218,7 +212,7 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
     if (layout.projective) maker.needs_double = hn::Eq(maker.scale, maker.scale);
   }
   if (layout.fog >= 0) {
-    for (int k = 0; k < 3; ++k) value[k] = LoadFloat(in.attribute[layout.fog][k] + i);
+    for (int k = 0; k < 3; ++k) value[k] = hn::Load(d, in.attribute[layout.fog][k] + i);
     maker.StoreAttribute(value, 2 + layout.fog, i, false, hn::Set(d, kColorTolerance * params.fog.level_span), out);
   }
   if (HWY_UNLIKELY(params.plane_rule != PlaneRule::by_bound || params.runs)) ApplyPlaneRule(params, maker);
@@ -302,17 +296,16 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
   const VertexLayout& layout = draw.vertices.layout;
   const FragmentParams& params = draw.program->params;
   const size_t stride = layout.stride();
+  const QuadPlan quads(layout.attribute_count);
   const int32_t center_x = tile_x * kSubpixelScale + kSubpixelScale / 2;
   const int32_t center_y = tile_y * kSubpixelScale + kSubpixelScale / 2;
   bool any_cut = false;
   for (int lane = 0; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    VertexHead made[3];
-    const VertexHead* corners[3];
-    FindCorners(segment, draw.vertices, stride, ref, made, corners);
-    StoreCorners(corners, made, ref, layout, lane, in);
+    CopyCorners(segment, draw.vertices, stride, ref, quads, lane, in);
     any_cut |= ref.cut;
   }
+  for (int i = 0; i < count; i += kDoubleLanes) SpreadCorners(quads, layout.attribute_count, i, in);
   SetBox(in, center_x, center_y, limit, out);
   const VD cx = hn::Set(d, static_cast<double>(center_x)), cy = hn::Set(d, static_cast<double>(center_y));
   for (int i = 0; i < count; i += kDoubleLanes) {
