@@ -53,7 +53,7 @@ void Batch::note_texture(const TextureView& view) {
 const PipelineProgram& Batch::program_for(const std::shared_ptr<const DrawState>& state,
                                           const VertexLayout& layout, ColorFormat format, bool fuse) {
   if (programs_.empty() || program_state_ != state || !same_layout(program_layout_, layout)) {
-    programs_.push_back(build_program(*state, layout, format, fuse));
+    build_program(*state, layout, format, fuse, codes_, programs_.emplace_back());
     program_state_ = state;
     program_layout_ = layout;
     if (state->texture.view != nullptr) note_texture(*state->texture.view);

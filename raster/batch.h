@@ -54,6 +54,7 @@ class Batch {
   uint8_t targets_ = 0;   // colour planes drawn to
   bool stencil_ = false;  // whether the stencil plane may be written
   std::deque<PipelineProgram> programs_;
+  CodeCache codes_;
   std::shared_ptr<const DrawState> program_state_;
   VertexLayout program_layout_;
   // Textures that draws hold on to, by level 0; the program that replaced or deleted one cannot free it.

@@ -273,8 +273,7 @@ void set_accuracy_params(const DrawState& state, const VertexLayout& layout, Fra
   if (is_wide(state) || accuracy.fog == Level::exact) params.exact = make_exact_params(state, layout);
 }
 
-FragmentParams make_params(const DrawState& state, const VertexLayout& layout, ColorFormat format) {
-  FragmentParams params;
+void set_params(const DrawState& state, const VertexLayout& layout, ColorFormat format, FragmentParams& params) {
   params.color_plane = 2 + layout.color;
   params.tex_plane = 2 + layout.tex_coord;
   params.rounds_to_bytes = format == ColorFormat::rgba8;
@@ -291,7 +290,6 @@ FragmentParams make_params(const DrawState& state, const VertexLayout& layout, C
   if (layout.fog >= 0) set_fog_params(state.fog, layout, params);
   params.color_mask = byte_mask(state.color_mask);
   if (state.texture.view != nullptr) set_texture_params(state, params);
-  return params;
 }
 
 // Covers the list from the front with the longest kernels there are. False if some stage has none of the wanted kind.
@@ -382,33 +380,61 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
   return list;
 }
 
-PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse) {
-  PipelineProgram program;
-  program.params = make_params(state, layout, format);
-  const bool fuses = fuse && !layout.given_depth;
-  BlockFunction KernelPair::*const kind = layout.given_depth ? &KernelPair::given_depth : &KernelPair::block;
-  program.writes_color = writes_color(state);
-  program.plane = state.color_targets == kFrontPlane ? 1 : 0;
-  program.both_planes = program.writes_color && state.color_targets == (kBackPlane | kFrontPlane);
+namespace {
+
+ProgramCode find_code(const CodeKey& key) {
+  ProgramCode code;
+  const bool fuses = key.fuse && !key.given_depth;
+  BlockFunction KernelPair::*const kind = key.given_depth ? &KernelPair::given_depth : &KernelPair::block;
   for (unsigned variant = 0; variant < kVariantCount; ++variant) {
-    const StageList list = list_stages(state, layout, format, variant);
-    BlockProgram& blocks = program.variants[variant];
-    if (program.both_planes) {
+    const StageList& list = key.lists[variant];
+    BlockProgram& blocks = code.variants[variant];
+    if (key.both_planes) {
       cover(list, 0, list.tail, fuses, kind, blocks);
       blocks.head = blocks.count;
     }
-    cover(list, program.both_planes ? list.tail : 0, list.count, fuses, kind, blocks);
+    cover(list, key.both_planes ? list.tail : 0, list.count, fuses, kind, blocks);
   }
+  code.packs = key.may_pack;
+  for (unsigned variant = 0; variant <= kAffine; ++variant) {
+    const StageList& list = key.lists[variant];
+    code.packs = code.packs && cover(list, key.tests_depth ? 1 : 0, list.count, key.fuse, &KernelPair::packed,
+                                     code.packed[variant]);
+  }
+  return code;
+}
+
+}  // namespace
+
+const ProgramCode& CodeCache::find(const CodeKey& key) {
+  for (const Entry& entry : entries_)
+    if (entry.filled && entry.key == key) return entry.code;
+  Entry& entry = entries_[next_++ % entries_.size()];
+  entry = {key, find_code(key), true};
+  return entry.code;
+}
+
+void build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse, CodeCache& cache,
+                   PipelineProgram& program) {
+  set_params(state, layout, format, program.params);
+  program.writes_color = writes_color(state);
+  program.plane = state.color_targets == kFrontPlane ? 1 : 0;
+  program.both_planes = program.writes_color && state.color_targets == (kBackPlane | kFrontPlane);
   const bool depth = needs_depth(state.depth);
   program.depth = state.depth;
   program.depth.test = depth;
   const bool stencil = needs_stencil(state.stencil);
-  program.packs = !needs_alpha_test(state.alpha_test) && !program.both_planes && !stencil && !state.polygon.stipple;
-  for (unsigned variant = 0; variant <= kAffine; ++variant) {
-    const StageList list = list_stages(state, layout, format, variant);
-    program.packs = program.packs && cover(list, depth ? 1 : 0, list.count, fuse, &KernelPair::packed,
-                                           program.packed[variant]);
-  }
+  CodeKey key;
+  for (unsigned variant = 0; variant < kVariantCount; ++variant)
+    key.lists[variant] = list_stages(state, layout, format, variant);
+  key.isa = current_isa();
+  key.fuse = fuse;
+  key.both_planes = program.both_planes;
+  key.given_depth = layout.given_depth;
+  key.may_pack =
+      !needs_alpha_test(state.alpha_test) && !program.both_planes && !stencil && !state.polygon.stipple;
+  key.tests_depth = depth;
+  static_cast<ProgramCode&>(program) = cache.find(key);
   const CompareFunc func = state.depth.func;
   const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
   program.reads_depth = depth;
@@ -421,7 +447,6 @@ PipelineProgram build_program(const DrawState& state, const VertexLayout& layout
       program.writes_depth && lowers && !needs_alpha_test(state.alpha_test) && !stencil && one_plane;
   const bool reaches_memory = program.writes_color || program.writes_depth;
   program.draws_nothing = !writes_stencil(state.stencil) && ((depth && func == CompareFunc::never) || !reaches_memory);
-  return program;
 }
 
 static_assert(static_cast<int>(StageId::count) <= kMaxStageIds);

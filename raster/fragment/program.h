@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "raster/fragment/block.h"
+#include "raster/isa.h"
 #include "raster/primitive/segment.h"
 
 namespace halfspace::raster {
@@ -45,11 +46,39 @@ struct BlockProgram {
   void run_metered(BlockContext& block, int first, int last) const;
 };
 
-struct PipelineProgram {
+struct ProgramCode {
   BlockProgram variants[kVariantCount];
   // Small triangles: depth test first, then these on packed fragments. [0] perspective, [kAffine] affine, in float.
   BlockProgram packed[2];
   bool packs = false;
+};
+
+// All that decides the code. What is not there are values, which often change from draw to draw.
+struct CodeKey {
+  StageList lists[kVariantCount];
+  Isa isa{};
+  bool fuse = false, both_planes = false, given_depth = false;
+  bool may_pack = false;    // nothing forbids it but what its stages are
+  bool tests_depth = false;  // by the lists' first stage
+  bool operator==(const CodeKey&) const = default;
+};
+
+// The code that was found last, since to find it takes longer than to shade a few pixels.
+class CodeCache {
+ public:
+  const ProgramCode& find(const CodeKey& key);
+
+ private:
+  struct Entry {
+    CodeKey key;
+    ProgramCode code;
+    bool filled = false;
+  };
+  std::array<Entry, 4> entries_;
+  size_t next_ = 0;
+};
+
+struct PipelineProgram : ProgramCode {
   DepthState depth;  // the test that packing does; test == false: none
   FragmentParams params;
   bool reads_depth = false, writes_depth = false, writes_color = false;
@@ -66,7 +95,8 @@ struct PipelineProgram {
 StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorFormat format, unsigned variant);
 
 // fuse: false runs every stage alone.
-PipelineProgram build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse);
+void build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse, CodeCache& cache,
+                   PipelineProgram& program);
 
 // Per-ISA code of `count` stages in a row: of one stage, or of a run listed in raster/fragment/fused.def, else null.
 // `block` works on the rows of a block, `packed` on packed fragments (null where that cannot be).
