@@ -20,6 +20,12 @@ import time
 from mutations import MUTATIONS
 
 HARD = "hard_cases"
+# The copy is built for the scalar level alone: every level is compiled from the same bodies, and a mutation is done in a
+# quarter of the time.
+PREPARATION = [
+    ("raster/isa.h", "#if defined(__x86_64__)\n#define HALFSPACE_SELECT_LEVEL", "#if 0\n#define HALFSPACE_SELECT_LEVEL"),
+    ("raster/CMakeLists.txt", "HWY_DISABLED_TARGETS=(", "HWY_DISABLED_TARGETS=(HWY_SSE4|HWY_AVX2|HWY_AVX3|"),
+]
 
 
 def program_of(mutation):
@@ -42,6 +48,9 @@ def problems(source):
                     yield f"{mutation.name}: there is no hard case {case}"
         elif not list(source.glob(f"tests/*/{program}.cpp")):
             yield f"{mutation.name}: there is no test {program}"
+    for file, text, _ in PREPARATION:
+        if (source / file).read_text().count(text) != 1:
+            yield f"{file} is no longer as the preparation of the copy wants it"
     names = [mutation.name for mutation in MUTATIONS]
     for name in sorted(set(n for n in names if names.count(n) > 1)):
         yield f"{name}: is there twice"
@@ -55,15 +64,18 @@ def tracked(source):
 def copy_tree(source, tree):
     """Only what differs is written, so that the build stays valid."""
     names = tracked(source)
+    prepared = {file: (source / file).read_text().replace(text, new).encode() for file, text, new in PREPARATION}
     for old in [p for p in tree.rglob("*") if p.is_file()] if tree.exists() else []:
         if old.relative_to(tree).as_posix() not in names:
             old.unlink()
     for name in names:
         target = tree / name
-        if target.exists() and target.read_bytes() == (source / name).read_bytes():
+        wanted = prepared.get(name) or (source / name).read_bytes()
+        if target.exists() and target.read_bytes() == wanted:
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(source / name, target)
+        target.write_bytes(wanted)
 
 
 class Workshop:

@@ -61,10 +61,11 @@ MUTATIONS = [
 
     # ---- planes
     Mutation("the reference vertex is the first one given", "raster/tile/setup_gather.inl",
-             "if (given == 3) return OrderCorners(v);", "if (given == 3) return;",
+             "third_first = hn::AndNot(in_order, hn::AndNot(second_first, IsBelow(xc, yc, x[0], y[0])))",
+             "third_first = hn::MaskFromVec(hn::Zero(d))",
              "translation_test:Translation.OrderOfVerticesChangesNothing"),
     Mutation("colours are scaled by 256", SETUP,
-             "LoadFloat(in.attribute[a][k] + i), hn::Set(d, 255.0)", "LoadFloat(in.attribute[a][k] + i), hn::Set(d, 256.0)",
+             "hn::Load(d, in.attribute[a][k] + i), hn::Set(d, 255.0)", "hn::Load(d, in.attribute[a][k] + i), hn::Set(d, 256.0)",
              "color_test:Color.EveryByteComesBack"),
     Mutation("attributes are not divided by w", SETUP,
              "by_w = hn::Mul(value[k], inv_w[k])", "by_w = value[k]",
@@ -98,12 +99,12 @@ MUTATIONS = [
              "polygon_offset_test:PolygonOffset.UnitsAreStepsOfTheDepthBuffer"),
 
     # ---- fragments
-    Mutation("blends are cut off, not rounded", STAGES + "blend.inl",
-             "hn::Add(sum, hn::Set(d, 128))", "sum", "hard_cases:blend_triples,thousand_blends"),
-    Mutation("blends are divided by 256", STAGES + "blend.inl",
-             "hn::ShiftRight<8>(hn::Add(x, hn::ShiftRight<8>(x)))", "hn::ShiftRight<8>(x)",
+    Mutation("blends are cut off, not rounded", "raster/fragment/bytes.inl",
+             "hn::Add(x, hn::Set(DU(), 0x00800080u))", "x", "hard_cases:blend_triples,thousand_blends"),
+    Mutation("blends are divided by 256", "raster/fragment/bytes.inl",
+             "hn::Add(y, hn::And(hn::ShiftRight<8>(y), low))", "y",
              "hard_cases:blend_triples,thousand_blends"),
-    Mutation("colours are cut off on their way to memory", STAGES + "blend.inl",
+    Mutation("colours are cut off on their way to memory", "raster/fragment/bytes.inl",
              "TruncateInRange(hn::Add(v, hn::Set(DF(), 0.5f)))", "TruncateInRange(v)",
              "color_test:Color.GradientsRoundToNearest"),
     Mutation("alpha is compared the other way round", STAGES + "alpha_test.inl",
@@ -133,7 +134,7 @@ MUTATIONS = [
              "if (wrap == Wrap::repeat) s = hn::Sub(s, hn::Trunc(s));",
              "texture_test:Texture*"),
     Mutation("NEAREST at a texel's edge takes the texel before", STAGES + "sample.inl",
-             "hn::Floor(hn::Add(scaled, hn::Set(d, 0.5f)))", "hn::Sub(hn::Floor(hn::Add(scaled, hn::Set(d, 0.5f))), hn::Set(d, 1.0f))",
+             "TruncateInRange(hn::Add(scaled, hn::Set(d, 0.5f)))", "TruncateInRange(hn::Sub(scaled, hn::Set(d, 0.5f)))",
              "hard_cases:texture_seams"),
 
     # ---- lines and points

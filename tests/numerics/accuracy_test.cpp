@@ -179,7 +179,7 @@ TEST(Accuracy, DraftPerspectiveBendsWithinARun) {
   EXPECT_GT(worst, 0.55);
 }
 
-// --- Blending, rounded once from the unrounded colour.
+// --- Blending, of a colour that has become bytes (spec 2.14.9), rounded once.
 
 TEST(Accuracy, ExactBlendingRoundsOnce) {
   Random random(5);
@@ -198,7 +198,8 @@ TEST(Accuracy, ExactBlendingRoundsOnce) {
     const uint8_t* is = after.pixel(1, 1);
     const float own[] = {color.r, color.g, color.b, color.a};
     for (int k = 0; k < 4; ++k) {
-      const Exact alpha(own[3]), truth = alpha * own[k] * 255 + (1 - alpha) * before.pixel(1, 1)[k];
+      const auto byte = [&own](int channel) { return floor(Exact(own[channel]) * 255 + Exact(0.5)); };
+      const Exact alpha = byte(3) / 255, truth = alpha * byte(k) + (1 - alpha) * before.pixel(1, 1)[k];
       EXPECT_LE(abs(truth - is[k]), Exact("0.5000001")) << round << ", " << k;
     }
   }

@@ -92,7 +92,7 @@ struct AlphaTestWide {
   }
 };
 
-// Blending (spec 4.1.7) of the unrounded colour.
+// Blending (spec 4.1.7). Where bytes are kept, the colour becomes bytes first (2.14.9), as at every level.
 template <bool kFloatTarget>
 struct BlendWide {
   static constexpr bool kKills = false, kPacks = false;
@@ -106,6 +106,8 @@ struct BlendWide {
     if constexpr (!kFloatTarget) UnpackTexels(hn::Load(DU(), c.color + i), old);
     for (int k = 0; k < 4; ++k) {
       s[k] = GetWide(v, kR + k, true);
+      for (int p = 0; p < kDoubleParts && !kFloatTarget; ++p)
+        s[k].part[p] = hn::Floor(hn::Add(s[k].part[p], hn::Set(d, 0.5)));
       dst[k] = kFloatTarget
                    ? MulWide(PromoteGroup(hn::Load(DF(), c.color_planes + k * kBlockPixels + i)), SetWide(255))
                    : PromoteGroup(old.slot[kTexR + k]);
