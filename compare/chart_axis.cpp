@@ -35,7 +35,7 @@ std::vector<Tick> LogAxis::ticks(double base, const char* unit) const {
 std::string tick_label(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g", value);
-  if (value < 1e-4) std::snprintf(text, sizeof text, "%.0e", value);
+  if (value != 0 && std::abs(value) < 1e-4) std::snprintf(text, sizeof text, "%.0e", value);
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "compare/cost_program.h"
 #include "compare/cost_scenes.h"
 #include "compare/cost_truth.h"
+#include "compare/processor.h"
 
 namespace halfspace::compare {
 namespace {

@@ -6,6 +6,7 @@
 #include "compare/commands.h"
 #include "compare/cost.h"
 #include "compare/cost_chart.h"
+#include "compare/effects.h"
 #include "compare/html.h"
 
 namespace halfspace::compare {
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 struct CostCommand {
   CostOptions options;
   bool no_axes = false, no_mesa = false;
+  bool effects = false, instructions = false;
 };
 
 void tell(const std::string& what) { std::fprintf(stderr, "halfspace cost: %s\n", what.c_str()); }
@@ -29,8 +31,18 @@ void write_files(const CostResult& result, const fs::path& out) {
   if (result.options.axes) write_text(out / "cost_axes.svg", axes_chart(summary));
 }
 
+int effects(const CostCommand& command) {
+  const EffectsResult result = measure_effects(command.options, command.instructions, tell);
+  std::fputs(to_text(result).c_str(), stdout);
+  write_text(command.options.out / "effects.json", to_json(result).dump(2) + "\n");
+  write_text(command.options.out / "effects.svg", effects_chart(result));
+  std::printf("effects.json and effects.svg are in %s\n", command.options.out.c_str());
+  return result.done_while_off == 0 ? kGood : kLimitBroken;
+}
+
 int cost(CostCommand command) {
   try {
+    if (command.effects) return effects(command);
     command.options.axes = !command.no_axes;
     command.options.mesa = !command.no_mesa;
     const CostResult result = measure_cost(command.options, tell);
@@ -61,6 +73,10 @@ void add_what_to_draw(CLI::App& app, CostOptions& options) {
 
 void add_how_to_measure(CLI::App& app, CostCommand& command) {
   CostOptions& options = command.options;
+  app.add_flag("--effects", command.effects,
+               "Measure instead what each effect costs on a scene that they are added to one by one");
+  app.add_flag("--instructions", command.instructions,
+               "With --effects: also count the instructions of a frame, by valgrind");
   app.add_flag("--no-axes", command.no_axes, "The three levels only, no axis of the dial alone");
   app.add_flag("--no-mesa", command.no_mesa, "Leave OSMesa's llvmpipe and softpipe out");
   app.add_option("--rounds", options.rounds, "How often all settings take their turn")
@@ -87,7 +103,8 @@ void add_cost_command(CLI::App& app, int& status) {
   cost_app->footer(
       "Time is the processor's, on one thread; the truth is drawn by the oracle, a slow renderer of the "
       "tests, and "
-      "kept in OUT/truth.\nExit status: 0 measured, whatever came out; 2 something could not be drawn.");
+      "kept in OUT/truth.\nExit status: 0 measured, whatever came out; 1 an effect that was off did "
+      "something (--effects); 2 something could not be drawn.");
   add_what_to_draw(*cost_app, command->options);
   add_how_to_measure(*cost_app, *command);
   cost_app->prefix_command();

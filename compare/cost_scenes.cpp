@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <stdexcept>
 
 namespace halfspace::compare {
@@ -75,7 +74,7 @@ const SceneProgram& effect_scenes() {
 
 std::vector<SceneGroup> chosen_groups(const CostOptions& options) {
   std::vector<std::string> scenes = options.scenes;
-  if (scenes.empty() && options.cases.empty()) scenes = {"1-8"};
+  if (scenes.empty() && options.cases.empty()) scenes = {"1-8", kEverything};
   const auto everything = std::find(scenes.begin(), scenes.end(), kEverything);
   const bool with_everything = everything != scenes.end();
   if (with_everything) scenes.erase(everything);
@@ -112,14 +111,6 @@ int cost_core(const CostOptions& options) {
   if (options.core >= 0) return options.core;
   const std::vector<int> cores = available_cores();
   return cores.empty() ? 0 : cores.back();
-}
-
-std::string processor_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name") && line.find(": ") != std::string::npos)
-      return line.substr(line.find(": ") + 2);
-  return "unknown processor";
 }
 
 }  // namespace halfspace::compare

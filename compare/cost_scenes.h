@@ -26,6 +26,5 @@ std::vector<Setting> chosen_settings(const CostOptions& options);
 std::vector<std::string> paints_of(const SceneProgram& program);
 size_t standard_index(const std::vector<Setting>& settings);
 int cost_core(const CostOptions& options);
-std::string processor_name();
 
 }  // namespace halfspace::compare

@@ -95,16 +95,23 @@ DrawnScenes draw_scenes(const DrawJob& job) {
   return drawn;
 }
 
-std::vector<std::string> listed_scenes(const SceneProgram& program) {
+std::vector<std::string> listed_lines(const SceneProgram& program) {
   ChildCommand command;
   command.arguments = {house_program(program.name).string(), "--list"};
   command.output = fs::temp_directory_path() / ("halfspace-list-" + std::to_string(getpid()) + ".txt");
   require_success(command, "list of scenes");
-  std::istringstream lines(whole_file(command.output));
+  std::istringstream text(whole_file(command.output));
   fs::remove(command.output);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);)
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> listed_scenes(const SceneProgram& program) {
   std::vector<std::string> names;
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) names.push_back(line.substr(0, line.find_first_of(" \t")));
+  for (const std::string& line : listed_lines(program))
+    names.push_back(line.substr(0, line.find_first_of("\t ")));
   return names;
 }
 

@@ -44,7 +44,9 @@ struct DrawnScenes {
 // Throws StartError, NotFound, and std::runtime_error when the program failed or another renderer drew.
 DrawnScenes draw_scenes(const DrawJob& job);
 
-// The scenes' names by the program's --list, one a line. Throws as above.
+// What the program's --list says: a scene a line, its name and, behind a tab, a description. Throws as above.
+std::vector<std::string> listed_lines(const SceneProgram& program);
+// The names alone.
 std::vector<std::string> listed_scenes(const SceneProgram& program);
 
 }  // namespace halfspace::compare

@@ -43,6 +43,7 @@ class Backend {
 struct BackendOptions {
   int width = 1024, height = 1024;
   bool visible = false;
+  int stencil_bits = 0;  // at least; only OSMesa looks at it
 };
 
 // Throws std::runtime_error, with a message for people, when there is no display, no visual or no memory.

@@ -33,7 +33,8 @@ int run(const ref_app::Options& options, char** argv) {
     return 0;
   }
   const auto backend = ref_app::make_backend({options.width, options.height, options.window});
-  return options.window ? ref_app::run_viewer(*backend, options) : ref_app::run_scenes(*backend, options);
+  if (options.window) return ref_app::run_viewer(*backend, options);
+  return ref_app::run_scenes(*backend, options, ref_app::reference_scenes(options.scenes));
 }
 
 }  // namespace

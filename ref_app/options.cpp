@@ -18,17 +18,14 @@ bool parse_size(const std::string& text, int& width, int& height) {
          width <= kLargestSize && height <= kLargestSize;
 }
 
-}  // namespace
-
-bool parse_options(int argc, char** argv, Options& options, int& exit_code) {
-  CLI::App app(
-      "Draws the eight reference scenes with whatever OpenGL it finds, and says how long each took.");
+// What a command line says in other words than Options has them.
+struct Said {
   std::string size = "1024x1024";
-  std::vector<int> scenes;
   bool no_pictures = false;
-  app.add_option("--scene", scenes, "Only this scene, 1 to 8; may be given again")
-      ->check(CLI::Range(1, kSceneCount));
-  app.add_option("--size", size, "Picture size, WIDTHxHEIGHT")
+};
+
+void add_drawing_options(CLI::App& app, Options& options, Said& said) {
+  app.add_option("--size", said.size, "Picture size, WIDTHxHEIGHT")
       ->check([](const std::string& text) {
         int width = 0, height = 0;
         return parse_size(text, width, height) ? std::string()
@@ -42,9 +39,34 @@ bool parse_options(int argc, char** argv, Options& options, int& exit_code) {
   app.add_option("--format", options.format, "Pictures' format")
       ->check(CLI::IsMember({"bmp", "png"}))
       ->capture_default_str();
-  app.add_flag("--no-pictures", no_pictures, "Time only, save nothing");
+  app.add_flag("--no-pictures", said.no_pictures, "Time only, save nothing");
   app.add_option("--json", options.json,
                  "Write times, picture names and the renderer's strings to this file");
+}
+
+// False for help, or an error that has been printed.
+bool parse(CLI::App& app, int argc, char** argv, const Said& said, Options& options, int& exit_code) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& refusal) {
+    exit_code = app.exit(refusal) == 0 ? 0 : 2;
+    return false;
+  }
+  parse_size(said.size, options.width, options.height);
+  options.pictures = !said.no_pictures;
+  return true;
+}
+
+}  // namespace
+
+bool parse_options(int argc, char** argv, Options& options, int& exit_code) {
+  CLI::App app(
+      "Draws the eight reference scenes with whatever OpenGL it finds, and says how long each took.");
+  Said said;
+  std::vector<int> scenes;
+  app.add_option("--scene", scenes, "Only this scene, 1 to 8; may be given again")
+      ->check(CLI::Range(1, kSceneCount));
+  add_drawing_options(app, options, said);
   app.add_option("--backend", options.backend, "What to draw with")
       ->check(CLI::IsMember({"glx", "osmesa", "raster"}));
   app.add_option("--paint", options.paint,
@@ -60,15 +82,23 @@ bool parse_options(int argc, char** argv, Options& options, int& exit_code) {
                "Show a window (glx). Arrows turn, 1-8 choose a scene, space starts and stops, Esc ends");
   app.add_flag("--animate", options.animate,
                "Move from the start; without --window, each frame shows a later moment");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& refusal) {
-    exit_code = app.exit(refusal) == 0 ? 0 : 2;
-    return false;
-  }
-  parse_size(size, options.width, options.height);
-  options.pictures = !no_pictures;
+  if (!parse(app, argc, argv, said, options, exit_code)) return false;
   if (!scenes.empty()) options.scenes = scenes;
+  return true;
+}
+
+bool parse_effect_options(int argc, char** argv, const std::vector<std::string>& effects,
+                          EffectOptions& options, int& exit_code) {
+  CLI::App app(
+      "Draws one scene with whatever libOSMesa it finds, effects added to it one by one, and says how long "
+      "each took.");
+  Said said;
+  app.add_option("--draw", options.effects, "Only up to this effect; may be given again")
+      ->check(CLI::IsMember(effects));
+  app.add_flag("--list", options.list, "Name the effects, in their order, and stop");
+  add_drawing_options(app, options.drawing, said);
+  if (!parse(app, argc, argv, said, options.drawing, exit_code)) return false;
+  if (options.effects.empty()) options.effects = effects;
   return true;
 }
 

@@ -21,4 +21,14 @@ struct Options {
 // error that has been printed).
 bool parse_options(int argc, char** argv, Options& options, int& exit_code);
 
+struct EffectOptions {
+  Options drawing;
+  std::vector<std::string> effects;
+  bool list = false;
+};
+
+// The same for the program that draws effects; `effects` is what there is.
+bool parse_effect_options(int argc, char** argv, const std::vector<std::string>& effects,
+                          EffectOptions& options, int& exit_code);
+
 }  // namespace ref_app

@@ -16,7 +16,7 @@ class OsmesaBackend final : public Backend {
   explicit OsmesaBackend(const BackendOptions& options)
       : renderer_(options.width, options.height),
         pixels_(static_cast<size_t>(options.width) * static_cast<size_t>(options.height)),
-        context_(OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, nullptr)) {
+        context_(OSMesaCreateContextExt(OSMESA_RGBA, 24, options.stencil_bits, 0, nullptr)) {
     if (!context_) throw std::runtime_error("OSMesaCreateContextExt gave no context");
     if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, options.width, options.height)) {
       OSMesaDestroyContext(context_);

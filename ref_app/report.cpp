@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "ref_app/process_clock.h"
-#include "ref_app/scenes.h"
 
 namespace ref_app {
 namespace {
@@ -34,7 +33,7 @@ void write_numbers(std::ostream& out, const std::vector<double>& numbers) {
 }
 
 void write_scene(std::ostream& out, const SceneResult& result) {
-  out << "    {\"scene\": " << result.scene << ", \"name\": " << quoted(scene_name(result.scene))
+  out << "    {\"scene\": " << result.scene << ", \"name\": " << quoted(result.name)
       << ", \"triangles\": " << result.triangles << ",\n     \"first_ms\": " << result.first_ms
       << ", \"median_ms\": " << result.median_ms() << ", \"fastest_ms\": " << result.fastest_ms()
       << ", \"frame_ms\": [";
@@ -69,7 +68,7 @@ void print_header(const Report& report) {
 }
 
 void print_scene(const SceneResult& result) {
-  std::printf("%-5d %-18s %9zu %10.3f %10.3f\n", result.scene, scene_name(result.scene), result.triangles,
+  std::printf("%-5d %-18s %9zu %10.3f %10.3f\n", result.scene, result.name.c_str(), result.triangles,
               result.first_ms, result.median_ms());
   std::fflush(stdout);
 }

@@ -9,13 +9,14 @@ namespace ref_app {
 
 struct SceneResult {
   int scene = 0;
+  std::string name;
   size_t triangles = 0;
-  double first_ms = 0;           // the first frame
-  std::vector<double> frame_ms;  // the ones after it: clear, draw, finish
+  double first_ms = 0;               // the first frame
+  std::vector<double> frame_ms;      // the ones after it: clear, draw, finish
   std::vector<double> frame_cpu_ms;  // processor time of those, over all threads
-  bool opaque = true;            // every pixel read back with alpha 255
-  long peak_kib = 0;             // peak memory so far, before any image file was touched
-  std::string picture;           // file name, empty when none was saved
+  bool opaque = true;                // every pixel read back with alpha 255
+  long peak_kib = 0;                 // peak memory so far, before any image file was touched
+  std::string picture;               // file name, empty when none was saved
 
   double median_ms() const;
   double fastest_ms() const;

@@ -45,8 +45,8 @@ FrameTime time_frame(Scene& scene, Renderer& renderer, const Motion& motion) {
 
 class Run {
  public:
-  Run(Backend& backend, const Options& options)
-      : backend_(backend), options_(options), assets_(options.assets, options.model) {
+  Run(Backend& backend, const Options& options, const std::vector<SceneSource>& scenes)
+      : backend_(backend), options_(options), scenes_(scenes), assets_(options.assets, options.model) {
     if (const Paint paint = paint_of(options.paint); paint != Paint::scene)
       painted_.emplace(backend.renderer(), paint);
     report_.backend = backend_name();
@@ -57,10 +57,10 @@ class Run {
   int all() {
     if (options_.pictures) make_out_folder();
     print_header(report_);
-    for (const int number : options_.scenes) {
-      report_.scenes.push_back(draw_scene(number));
+    for (const SceneSource& source : scenes_) {
+      report_.scenes.push_back(draw_scene(source));
       print_scene(report_.scenes.back());
-      complain(number);
+      complain(source);
     }
     report_.peak_kib = peak_memory_kib();
     print_summary(report_);
@@ -76,12 +76,13 @@ class Run {
     if (failure) throw InputError("cannot make the folder " + options_.out + ": " + failure.message());
   }
 
-  SceneResult draw_scene(int number) {
+  SceneResult draw_scene(const SceneSource& source) {
     Renderer& renderer = painted_ ? *painted_ : backend_.renderer();
     SceneResult result;
-    result.scene = number;
+    result.scene = source.number;
+    result.name = source.name;
     {
-      const std::unique_ptr<Scene> scene = make_scene(number, renderer, assets_);
+      const std::unique_ptr<Scene> scene = source.make(renderer, assets_);
       malloc_trim(0);  // the images' own pixels have been handed over by now
       result.triangles = scene->triangle_count();
       result.first_ms = time_frame(*scene, renderer, motion_at(0, options_.animate)).ms;
@@ -98,17 +99,17 @@ class Run {
     return result;
   }
 
-  void complain(int scene) {
+  void complain(const SceneSource& source) {
     const std::string errors = backend_.take_errors();
     if (errors.empty()) return;
-    std::fprintf(stderr, "ref_app: scene %d: %s\n", scene, errors.c_str());
+    std::fprintf(stderr, "ref_app: scene %s: %s\n", source.name.c_str(), errors.c_str());
     failed_ = true;
   }
 
   void save_pictures() {
     for (size_t i = 0; i < report_.scenes.size(); ++i) {
       SceneResult& result = report_.scenes[i];
-      const std::string name = "scene_" + std::to_string(result.scene) + "." + options_.format;
+      const std::string name = scenes_[i].file + "." + options_.format;
       result.picture = (fs::path(options_.out) / name).string();
       save_image(result.picture, spool_.fetch(i));
     }
@@ -117,6 +118,7 @@ class Run {
 
   Backend& backend_;
   const Options& options_;
+  const std::vector<SceneSource>& scenes_;
   Assets assets_;
   std::optional<PaintedRenderer> painted_;
   PictureSpool spool_;
@@ -126,6 +128,19 @@ class Run {
 
 }  // namespace
 
-int run_scenes(Backend& backend, const Options& options) { return Run(backend, options).all(); }
+std::vector<SceneSource> reference_scenes(const std::vector<int>& numbers) {
+  std::vector<SceneSource> sources;
+  for (const int number : numbers) {
+    sources.push_back({number, scene_name(number), "scene_" + std::to_string(number),
+                       [number](Renderer& renderer, const Assets& assets) {
+                         return make_scene(number, renderer, assets);
+                       }});
+  }
+  return sources;
+}
+
+int run_scenes(Backend& backend, const Options& options, const std::vector<SceneSource>& scenes) {
+  return Run(backend, options, scenes).all();
+}
 
 }  // namespace ref_app
