@@ -7,8 +7,6 @@
 #include <memory>
 
 #include "compare/bench_limits.h"
-#include "compare/dialogue.h"
-#include "compare/libraries.h"
 #include "compare/processor.h"
 
 namespace halfspace::compare {
@@ -18,72 +16,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Progress = std::function<void(const std::string&)>;
 
-constexpr const char* kLibrary = "libOSMesa.so.8";
 constexpr double kLimitSeconds = 0.05;  // for each
-constexpr double kBatchMs = 60;         // frames are measured in batches of about this length
-
-// One who draws: bench/workloads with a library, an environment and cores.
-class Contestant {
- public:
-  Contestant(const std::string& library, std::vector<EnvironmentVariable> environment, std::vector<int> cores)
-      : dialogue_(command(library, std::move(environment), std::move(cores))) {}
-
-  Json order(const std::string& line) {
-    const Json answer = Json::parse(dialogue_.ask(line));
-    if (answer.contains("error")) throw std::runtime_error(line + ": " + answer["error"].get<std::string>());
-    return answer;
-  }
-
- private:
-  static ChildCommand command(const std::string& library, std::vector<EnvironmentVariable> environment,
-                              std::vector<int> cores) {
-    ChildCommand command;
-    command.arguments = {house_program("workloads").string(), "--serve", "--library", library};
-    command.environment = std::move(environment);
-    command.cores = std::move(cores);
-    return command;
-  }
-
-  Dialogue dialogue_;
-};
-
-int chosen_core(const WorkloadOptions& options) {
-  if (options.core >= 0) return options.core;
-  const std::vector<int> cores = available_cores();
-  return cores.empty() ? 0 : cores.back();
-}
-
-std::string our_library(const WorkloadOptions& options) {
-  return (library_folder(kLibrary, options.library) / kLibrary).string();
-}
-
-// A library, the folder of one, or a build tree.
-std::string library_at(const fs::path& place) {
-  for (const fs::path& path : {place, place / kLibrary, place / "lib" / kLibrary})
-    if (fs::is_regular_file(path)) return fs::canonical(path).string();
-  throw NotFound("no " + std::string(kLibrary) + " in " + place.string());
-}
-
-std::vector<EnvironmentVariable> our_environment(int threads, bool draft) {
-  return {{"HALFSPACE_THREADS", std::to_string(threads)},
-          {"HALFSPACE_ACCURACY", draft ? "draft" : "standard"}};
-}
-
-std::unique_ptr<Contestant> make_ours(const WorkloadOptions& options, bool draft) {
-  return std::make_unique<Contestant>(our_library(options), our_environment(1, draft),
-                                      std::vector<int>{chosen_core(options)});
-}
-
-std::unique_ptr<Contestant> make_theirs(const WorkloadOptions& options, bool draft) {
-  const std::vector<int> cores{chosen_core(options)};
-  if (options.against)
-    return std::make_unique<Contestant>(library_at(*options.against), our_environment(1, draft), cores);
-  // llvmpipe counts helpers beside the calling thread: none of them is one thread.
-  const std::vector<EnvironmentVariable> environment{
-      {"GALLIUM_DRIVER", options.softpipe ? "softpipe" : "llvmpipe"}, {"LP_NUM_THREADS", "0"}};
-  // By name: the dynamic linker's, which is the system's.
-  return std::make_unique<Contestant>(kLibrary, environment, cores);
-}
 
 struct Workload {
   std::string name, what;
@@ -94,9 +27,8 @@ struct Workload {
 
 // The program knows them; it is asked without drawing anything.
 std::vector<Workload> workloads(const WorkloadOptions& options) {
-  Contestant lister(our_library(options), {}, {});
+  const Json list = start_halfspace({options.library}, {})->order("list");
   std::vector<Workload> chosen;
-  const Json list = lister.order("list");
   for (const Json& entry : list.at("workloads")) {
     const Workload workload{entry.at("name"), entry.at("what"), entry.at("target"), false, entry.at("work")};
     const double draft_target = entry.at("draft_target");
@@ -110,45 +42,6 @@ std::vector<Workload> workloads(const WorkloadOptions& options) {
     if (std::none_of(chosen.begin(), chosen.end(), [&](const Workload& w) { return w.name == name; }))
       throw std::runtime_error("there is no workload " + name);
   return chosen;
-}
-
-struct Samples {
-  std::vector<double> cpu_ms, wall_ms;
-
-  void add(const Json& answer, int frames) {
-    cpu_ms.push_back(answer.at("cpu_ms").get<double>() / frames);
-    wall_ms.push_back(answer.at("wall_ms").get<double>() / frames);
-  }
-  FrameTime summary() const { return {summarize(cpu_ms), summarize(wall_ms)}; }
-};
-
-struct Turns {
-  FrameTime first, second;
-};
-
-// How many frames make a batch, after one frame that fills the caches and lets llvmpipe compile.
-int batch_of(Contestant& contestant) {
-  contestant.order("run 1");
-  const double frame_ms = contestant.order("run 1").at("wall_ms");
-  return std::clamp(static_cast<int>(kBatchMs / std::max(frame_ms, 0.01)), 1, 2000);
-}
-
-// In turns, so that a machine that slows down slows both; each is first as often as second.
-Turns take_turns(Contestant& first, Contestant& second, int rounds) {
-  const int first_frames = batch_of(first), second_frames = batch_of(second);
-  Samples first_times, second_times;
-  const auto run_first = [&] {
-    first_times.add(first.order("run " + std::to_string(first_frames)), first_frames);
-  };
-  const auto run_second = [&] {
-    second_times.add(second.order("run " + std::to_string(second_frames)), second_frames);
-  };
-  for (int round = 0; round < rounds; ++round) {
-    if (round % 2 == 0) run_first();
-    run_second();
-    if (round % 2 != 0) run_first();
-  }
-  return {first_times.summary(), second_times.summary()};
 }
 
 class Bench {
@@ -168,7 +61,7 @@ class Bench {
   void measure_limits() {
     if (options_.against) return;
     progress_("limits of this core");
-    limits_ = bench_limits(chosen_core(options_), kLimitSeconds);
+    limits_ = bench_limits(core_to_use(options_.core), kLimitSeconds);
   }
 
   void measure(const Workload& workload) {
@@ -177,7 +70,10 @@ class Bench {
     row.what = workload.what;
     row.draft = workload.draft;
     // What has been measured before shall leave nothing behind, memory above all.
-    const auto ours = make_ours(options_, workload.draft), theirs = make_theirs(options_, workload.draft);
+    const std::vector<int> core{core_to_use(options_.core)};
+    const auto ours = start_halfspace({options_.library, 1, workload.draft}, core);
+    const auto theirs = options_.against ? start_other_build(*options_.against, workload.draft, core)
+                                         : start_mesa(options_.softpipe, core);
     open(workload, *ours, *theirs);
     const Turns times = take_turns(*ours, *theirs, options_.rounds);
     row.ours = times.first;
@@ -206,15 +102,12 @@ class Bench {
 
   void open(const Workload& workload, Contestant& ours, Contestant& theirs) {
     const Json us = ours.order("open " + workload.name), them = theirs.order("open " + workload.name);
-    result_.our_renderer = us.at("renderer");
-    result_.our_version = us.at("version");
-    result_.their_renderer = them.at("renderer");
-    result_.their_version = them.at("version");
-    if (!result_.our_renderer.starts_with("Halfspace"))
-      throw std::runtime_error("asked for Halfspace, but \"" + result_.our_renderer + "\" drew");
-    if (!options_.against && result_.their_renderer.starts_with("Halfspace"))
-      throw std::runtime_error("asked for Mesa, but \"" + result_.their_renderer +
-                               "\" drew; is an LD_LIBRARY_PATH in the way?");
+    const Drawer our = require_halfspace(us),
+                 their = options_.against ? require_halfspace(them) : require_mesa(them);
+    result_.our_renderer = our.renderer;
+    result_.our_version = our.version;
+    result_.their_renderer = their.renderer;
+    result_.their_version = their.version;
   }
 
   // On the last two cores, the picture not looked at: that it is the same is tested elsewhere, to the bit.
@@ -222,11 +115,11 @@ class Bench {
     const std::vector<int> cores = available_cores();
     if (cores.size() < 2) return;
     const std::vector<int> two(cores.end() - 2, cores.end());
-    Contestant with_one(our_library(options_), our_environment(1, row.draft), two);
-    Contestant with_two(our_library(options_), our_environment(2, row.draft), two);
-    with_one.order("open " + row.name);
-    with_two.order("open " + row.name);
-    const Turns times = take_turns(with_one, with_two, options_.rounds);
+    const auto with_one = start_halfspace({options_.library, 1, row.draft}, two);
+    const auto with_two = start_halfspace({options_.library, 2, row.draft}, two);
+    with_one->order("open " + row.name);
+    with_two->order("open " + row.name);
+    const Turns times = take_turns(*with_one, *with_two, options_.rounds);
     row.one_thread = times.first;
     row.two_threads = times.second;
     row.speed_up = row.one_thread.wall_ms.median / row.two_threads.wall_ms.median;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/contest.h"
 #include "compare/difference.h"
-#include "compare/statistics.h"
 
 namespace halfspace::compare {
 
@@ -23,11 +23,6 @@ struct WorkloadOptions {
       against;                // another build of ours instead of Mesa: a library, its folder, a build tree
   double slower_percent = 5;  // allowed against another build
   std::filesystem::path out = "out/bench";
-};
-
-// Of a frame.
-struct FrameTime {
-  Summary cpu_ms, wall_ms;
 };
 
 struct WorkloadRow {
