@@ -43,7 +43,7 @@ int chosen_frames(const Options& options, const Times& one_frame) {
 
 // The first frame is not counted: it finds nothing in the caches, and llvmpipe compiles in it.
 Json measure(const Library& library, const Options& options, const Workload& workload) {
-  Run run(library, workload, options.screen);
+  Run run(library, workload.prepare, options.screen);
   const Times first = run.frames(1);
   const int frames = chosen_frames(options, options.frames > 0 ? first : run.frames(1));
   const Times time = run.frames(frames);

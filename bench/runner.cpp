@@ -8,6 +8,7 @@
 
 #include "bench/gl.h"
 #include "bench/memory.h"
+#include "bench/scales.h"
 
 namespace halfspace::bench {
 
@@ -24,8 +25,19 @@ Json list_of_workloads() {
   return list;
 }
 
-Run::Run(const Library& library, const Workload& workload, Screen screen)
-    : screen_(screen), context_(library, screen), frame_(workload.prepare(screen)) {}
+Json list_of_scales() {
+  Json list = Json::array();
+  for (const Scale& scale : all_scales())
+    list.push_back({{"name", scale.name}, {"what", scale.what}, {"amounts", scale.amounts}});
+  return list;
+}
+
+Run::Run(const Library& library, const Prepare& prepare, Screen screen)
+    : screen_(screen),
+      before_kib_(memory_now().resident_kib),
+      context_(library, screen),
+      context_kib_(memory_now().resident_kib - before_kib_),
+      frame_(prepare(screen)) {}
 
 Times Run::frames(int count) {
   const Times start = now();
@@ -62,10 +74,10 @@ class Servant {
     std::string order, argument;
     words >> order;
     std::getline(words >> std::ws, argument);
-    if (order == "list") return {{"workloads", list_of_workloads()}};
-    if (order == "open") return open(workload_named(argument));
-    if (order == "empty")
-      return open({"empty", 0, 0, "", [](Screen) -> Frame { return [] { gl.Finish(); }; }});
+    if (order == "list") return {{"workloads", list_of_workloads()}, {"scales", list_of_scales()}};
+    if (order == "open") return open(workload_named(argument).prepare, screen_);
+    if (order == "scale") return open_scale(argument);
+    if (order == "empty") return open([](Screen) -> Frame { return [] { gl.Finish(); }; }, screen_);
     if (order == "memory") return memory();
     if (!run_) throw std::runtime_error(order + ": nothing is open");
     if (order == "run") return run(std::stoi(argument));
@@ -75,10 +87,19 @@ class Servant {
   }
 
  private:
-  Json open(const Workload& workload) {
+  Json open(const Run::Prepare& prepare, Screen screen) {
     run_.reset();  // one context at a time
-    run_ = std::make_unique<Run>(library_, workload, screen_);
+    run_ = std::make_unique<Run>(library_, prepare, screen);
     return {{"renderer", gl_string(GL_RENDERER)}, {"version", gl_string(GL_VERSION)}};
+  }
+  Json open_scale(const std::string& argument) {
+    std::istringstream words(argument);
+    std::string name;
+    int amount = 0;
+    if (!(words >> name >> amount)) throw std::runtime_error("scale needs a name and an amount");
+    const Scale& scale = scale_named(name);
+    return open([&](Screen screen) { return scale.prepare(amount, screen); },
+                screen_of(scale, amount, screen_));
   }
   Json run(int count) {
     const Times time = run_->frames(count);
@@ -90,6 +111,7 @@ class Servant {
     forget_peak();
     return {{"resident_kib", memory.resident_kib},
             {"peak_kib", memory.peak_kib},
+            {"context_kib", run_ ? run_->context_kib() : 0},
             {"unloaded_kib", unloaded_kib_}};
   }
 

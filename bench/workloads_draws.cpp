@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bench/gl.h"
+#include "bench/parts.h"
 #include "bench/shapes.h"
 #include "bench/workload.h"
 
@@ -82,10 +83,13 @@ Frame clipheavy(Screen) {
   return draw_arrays(GL_TRIANGLES, std::move(vertices));
 }
 
-Frame many_state_changes(Screen screen) {
+Frame many_state_changes(Screen screen) { return draw_small_squares(20000, 16, screen); }
+
+Frame draw_small_squares(int count, int texture_count, Screen screen) {
   std::vector<GLuint> textures;
-  for (uint64_t seed = 0; seed < 16; ++seed) textures.push_back(make_texture(64, 100 + seed, false));
-  const std::vector<SmallDraw> draws = small_draws(20000, textures, screen);
+  for (int i = 0; i < texture_count; ++i)
+    textures.push_back(make_texture(64, 100 + static_cast<uint64_t>(i), false));
+  const std::vector<SmallDraw> draws = small_draws(count, textures, screen);
   use_pixel_coordinates(screen);
   gl.Enable(GL_TEXTURE_2D);
   // A little smaller than its cell.

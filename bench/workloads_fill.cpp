@@ -2,13 +2,12 @@
 #include <array>
 
 #include "bench/gl.h"
+#include "bench/parts.h"
 #include "bench/shapes.h"
 #include "bench/workload.h"
 
 namespace halfspace::bench {
 namespace {
-
-constexpr int kQuads = 100;
 
 struct Corner {
   std::array<float, 3> position;
@@ -16,17 +15,9 @@ struct Corner {
 };
 using Quad = std::array<Corner, 4>;
 
-struct QuadStyle {
-  bool tilted = true;
-  bool four_colors = false;
-  bool translucent = false;
-  float first_depth = 0, last_depth = 0;  // -1 near .. 1 far
-};
-
-// Each a little smaller than the one before, so that all show in the picture. Tilted ones lean in depth as
-// well.
-Quad make_quad(int number, const QuadStyle& style, Numbers& numbers) {
-  const float share = static_cast<float>(number) / kQuads;
+// Each a little smaller than the one before, so that all show in the picture; `share` is 0 for the first,
+// nearly 1 for the last. Tilted ones lean in depth as well.
+Quad make_quad(float share, const QuadStyle& style, Numbers& numbers) {
   const float edge = 0.995F - 0.03F * share;
   const float depth = style.first_depth + (style.last_depth - style.first_depth) * share;
   const PlanarColor color(numbers);
@@ -42,10 +33,15 @@ Quad make_quad(int number, const QuadStyle& style, Numbers& numbers) {
   return quad;
 }
 
-Frame fill(const QuadStyle& style) {
+Frame fill(const QuadStyle& style) { return draw_quads(100, style); }
+
+}  // namespace
+
+Frame draw_quads(int count, const QuadStyle& style) {
   Numbers numbers(7);
   std::vector<Quad> quads;
-  for (int i = 0; i < kQuads; ++i) quads.push_back(make_quad(i, style, numbers));
+  for (int i = 0; i < count; ++i)
+    quads.push_back(make_quad(static_cast<float>(i) / static_cast<float>(count), style, numbers));
   gl.ShadeModel(style.four_colors ? GL_SMOOTH : GL_FLAT);
   const float alpha = style.translucent ? 0.4F : 1;
   return [quads, alpha] {
@@ -60,8 +56,6 @@ Frame fill(const QuadStyle& style) {
     gl.Finish();
   };
 }
-
-}  // namespace
 
 Frame clear(Screen) {
   return [frame = 0]() mutable {

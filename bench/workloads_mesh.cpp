@@ -4,14 +4,14 @@
 #include <memory>
 
 #include "bench/gl.h"
+#include "bench/parts.h"
 #include "bench/shapes.h"
 #include "bench/workload.h"
 
 namespace halfspace::bench {
 namespace {
 
-constexpr int kLitCells = 316;      // squared and doubled: 200,000 triangles
-constexpr int kMillionCells = 708;  // 1,000,000
+constexpr int kLitCells = 316;  // squared and doubled: 200,000 triangles
 
 // A grid over the screen whose inner corners are moved by up to a quarter of a cell, with depths of their
 // own.
@@ -113,11 +113,13 @@ Frame tri_10px(Screen screen) { return triangles_of(10, screen); }
 Frame tri_100px(Screen screen) { return triangles_of(100, screen); }
 Frame tri_1000px(Screen screen) { return triangles_of(1000, screen); }
 
-Frame mesh_indexed_1M(Screen) {
+Frame draw_terrain(int cells) {
   look_at_terrain();
   gl.Enable(GL_DEPTH_TEST);
-  return draw_elements(std::make_shared<Mesh>(terrain(kMillionCells)), Arrays::position_color);
+  return draw_elements(std::make_shared<Mesh>(terrain(cells)), Arrays::position_color);
 }
+
+Frame mesh_indexed_1M(Screen) { return draw_terrain(708); }
 
 Frame mesh_lit(Screen) {
   const auto mesh = use_lit_terrain();

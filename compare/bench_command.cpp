@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/bench_limits.h"
+#include "compare/bench_scale.h"
 #include "compare/bench_scenes.h"
 #include "compare/bench_workloads.h"
 #include "compare/commands.h"
@@ -80,6 +81,32 @@ void add_limits_command(CLI::App& bench_app, int& status) {
   });
 }
 
+int scale_it(const ScaleOptions& options) {
+  return or_complain([&] {
+    const ScaleResult result = bench_scale(options, tell);
+    std::fputs(to_text(result).c_str(), stdout);
+    write_text(options.out / "scale.json", to_json(result).dump(2) + "\n");
+    for (const ScaleCurve& curve : result.curves)
+      write_text(options.out / ("scale_" + curve.name + ".svg"), to_svg(curve));
+    std::printf("numbers in %s, curves beside it\n", (options.out / "scale.json").c_str());
+    return kGood;
+  });
+}
+
+void add_scale_command(CLI::App& bench_app, int& status) {
+  auto options = std::make_shared<ScaleOptions>();
+  CLI::App* command = bench_app.add_subcommand(
+      "scale", "How time and memory grow with triangles, pixels, overdraw, textures, state changes");
+  command->add_option("--only", options->only, "Only these curves, with commas between them")->delimiter(',');
+  command->add_option("--most", options->most, "Leave larger amounts out");
+  command->add_option("--rounds", options->rounds, "Times each has its turn")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--core", options->core, "Core both are pinned to; default: the last one");
+  add_library_and_out(*command, options->library, options->out);
+  command->callback([options, &status] { status = scale_it(*options); });
+}
+
 int bench_the_workloads(const WorkloadOptions& options) {
   return or_complain([&] {
     return report(bench_workloads(options, tell), options.out, options.against ? "against" : "workloads");
@@ -118,6 +145,7 @@ void add_bench_command(CLI::App& app, int& status) {
   add_workload_options(*command, *options);
   add_scenes_command(*command, status);
   add_limits_command(*command, status);
+  add_scale_command(*command, status);
   command->callback([command, options, &status] {
     if (command->get_subcommands().empty()) status = bench_the_workloads(*options);
   });

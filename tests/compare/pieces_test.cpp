@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "compare/bar_chart.h"
+#include "compare/curve_chart.h"
 #include "compare/dialogue.h"
 #include "compare/html.h"
 #include "compare/process.h"
@@ -76,6 +77,21 @@ TEST(Html, FileNamesCannotBreakOut) {
   EXPECT_EQ(escape_html("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
   EXPECT_THAT(figures_html({{"data:", "<script>"}}), testing::Not(HasSubstr("<script>")));
   EXPECT_THAT(page_html("<x>", ""), testing::Not(HasSubstr("<x>")));
+}
+
+TEST(CurveChart, PowersOfTenAreEvenlySpaced) {
+  const std::string svg = to_svg({{"t", "x", "y", {{"a<", {{1, 1}, {10, 10}, {100, 100}, {0, 5}}}}}});
+  double x[3], y[3];
+  const size_t path = svg.find("<path d=\"M");
+  ASSERT_NE(path, std::string::npos);
+  ASSERT_EQ(std::sscanf(svg.c_str() + path, "<path d=\"M%lf %lfL%lf %lfL%lf %lf\"", &x[0], &y[0], &x[1],
+                        &y[1], &x[2], &y[2]),
+            6);
+  EXPECT_NEAR(x[2] - x[1], x[1] - x[0], 0.11);
+  EXPECT_NEAR(y[2] - y[1], y[1] - y[0], 0.11);
+  EXPECT_GT(x[1], x[0]);
+  EXPECT_LT(y[1], y[0]);  // upwards
+  EXPECT_THAT(svg, HasSubstr("a&lt;"));
 }
 
 TEST(BarChart, LengthsAreInProportion) {

@@ -101,6 +101,18 @@ class Scenes(unittest.TestCase):
         self.assertGreater(limits["bytes_set/16"], limits["bytes_set/262144"] / 2)
         self.assertGreater(limits["pixel_stored"], limits["pixel_interpolated"])
 
+    def test_scale(self):
+        done = run("bench", "scale", "--only", "triangles,pixels", "--most", 1000, "--rounds", 1, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        curves = json.loads((self.out / "scale.json").read_text())["curves"]
+        self.assertEqual([curve["name"] for curve in curves], ["triangles", "pixels"])
+        pixels = curves[1]["points"]
+        self.assertEqual([point["amount"] for point in pixels], [64, 128, 256, 512])
+        # 64 times as many pixels are more work for anyone.
+        for who in ("ours", "theirs"):
+            self.assertGreater(pixels[3][who]["cpu_ms"], 4 * pixels[0][who]["cpu_ms"])
+        self.assertTrue((self.out / "scale_pixels.svg").read_text().startswith("<svg "))
+
     def test_two_builds(self):
         """A build against itself: the same pictures to the bit. A folder without a library is an error."""
         library = pathlib.Path(HALFSPACE).parent.parent
