@@ -3,6 +3,7 @@
 
 #include "raster/primitive/clip.h"
 #include "raster/primitive/clip_planes.h"
+#include "raster/primitive/line_place.h"
 
 namespace halfspace::raster {
 namespace {
@@ -39,12 +40,6 @@ void place(const LinePoint& p, const DrawRecord& draw, const WindowTransform& t,
   y = snap_coordinate(p.clip.y, p.clip.w, t.scale_y, t.offset_y);
 }
 
-// f0 at the anchor and f1 at the other end, (dx, dy) pixels away; constant across the line (spec 3.4.1).
-Plane plane_along(double f0, double f1, double dx, double dy) {
-  const double per_length = (f1 - f0) / (dx * dx + dy * dy);
-  return {f0, dx * per_length, dy * per_length};
-}
-
 bool is_finite(const Plane& p) {
   return std::isfinite(p.f0) && std::isfinite(p.dfdx) && std::isfinite(p.dfdy);
 }
@@ -67,21 +62,20 @@ bool Clipper::clip_line(const uint32_t v[2], unsigned outcodes, CutTriangle& out
   const bool swap = out.y[0] != out.y[1] ? out.y[1] < out.y[0] : out.x[1] < out.x[0];
   const LinePoint &a = p[swap], &b = p[!swap];  // the anchor is the lower end, so direction changes no bit
   planes.x0 = out.x[swap], planes.y0 = out.y[swap];
-  constexpr double kPixel = 1.0 / kSubpixelScale;
-  const double dx = (out.x[!swap] - planes.x0) * kPixel, dy = (out.y[!swap] - planes.y0) * kPixel;
+  const LinePlace placed(window_, {a.clip, b.clip, planes.x0, planes.y0, out.x[!swap], out.y[!swap]}, false);
   planes.provoking = v[1];
   const auto depth = [&](const LinePoint& q) {
     return q.clip.z / q.clip.w * window_.depth_scale + window_.depth_offset;
   };
-  planes.planes[0] = plane_along(depth(a), depth(b), dx, dy);
-  planes.planes[1] = plane_along(1 / a.clip.w, 1 / b.clip.w, dx, dy);
+  planes.planes[0] = placed.along(depth(a), depth(b));
+  planes.planes[1] = placed.along(1 / a.clip.w, 1 / b.clip.w);
   bool usable = is_finite(planes.planes[0]) && is_finite(planes.planes[1]);
   const float *f = vertices.attributes(v[0]), *g = vertices.attributes(v[1]);
   for (int k = 0; k < vertices.layout.attribute_count; ++k) {
     const auto value = [&](const LinePoint& q) {
       return (q.weight[0] * double(f[k]) + q.weight[1] * double(g[k])) / q.clip.w;
     };
-    planes.planes[2 + k] = plane_along(value(a), value(b), dx, dy);
+    planes.planes[2 + k] = placed.along(value(a), value(b));
     usable = usable && is_finite(planes.planes[2 + k]);
   }
   return usable;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "raster/primitive/clip.h"
+#include "raster/primitive/line_place.h"
 
 namespace halfspace::raster {
 namespace {
@@ -141,19 +142,12 @@ bool line_planes(const DrawRecord& draw, const WindowTransform& window, const Sh
   const bool swap = line.y[0] != line.y[1] ? line.y[1] < line.y[0] : line.x[1] < line.x[0];
   const ShapeVertex &a = ends[swap], &b = ends[!swap];
   out.x0 = line.x[swap], out.y0 = line.y[swap];
-  constexpr double kPixel = 1.0 / kSubpixelScale;
-  double dx = (line.x[!swap] - out.x0) * kPixel, dy = (line.y[!swap] - out.y0) * kPixel;
-  if (along_major) (std::abs(dy) > std::abs(dx) ? dx : dy) = 0;
-  const double length2 = dx * dx + dy * dy;
-  const auto along = [&](double f0, double f1) {
-    const double per_length = length2 > 0 ? (f1 - f0) / length2 : 0;
-    return Plane{f0, dx * per_length, dy * per_length};
-  };
-  out.planes[0] = along(window_depth(window, a.clip) + offset, window_depth(window, b.clip) + offset);
-  out.planes[1] = along(1 / a.clip.w, 1 / b.clip.w);
+  const LinePlace place(window, {a.clip, b.clip, out.x0, out.y0, line.x[!swap], line.y[!swap]}, along_major);
+  out.planes[0] = place.along(window_depth(window, a.clip) + offset, window_depth(window, b.clip) + offset);
+  out.planes[1] = place.along(1 / a.clip.w, 1 / b.clip.w);
   bool usable = is_finite(out.planes[0]) && is_finite(out.planes[1]);
   for (int k = 0; k < draw.vertices.layout.attribute_count; ++k) {
-    out.planes[2 + k] = along(a.value[k] / a.clip.w, b.value[k] / b.clip.w);
+    out.planes[2 + k] = place.along(a.value[k] / a.clip.w, b.value[k] / b.clip.w);
     usable = usable && is_finite(out.planes[2 + k]);
   }
   return usable;
