@@ -11,7 +11,7 @@ namespace halfspace::fuzz {
 namespace {
 
 Picture plain(int width, int height, uint8_t level) {
-  return {width, height, std::vector<uint8_t>(static_cast<size_t>(width * height * 4), level)};
+  return {width, height, std::vector<uint8_t>(static_cast<size_t>(width * height * 4), level), {}};
 }
 
 void set(Picture& picture, int x, int y, uint8_t level) {

@@ -2,13 +2,15 @@
 // only that.
 //
 // In, for each stream: width, height, size of the stream (uint32 each), the stream. Out: "DONE" (uint32),
-// number of errors, (call, error) for each (uint32), the pixels (RGBA, bottom row first).
+// number of errors, (call, error) for each (uint32), the pixels (RGBA, bottom row first), their depths
+// (uint32, as OSMesaGetDepthBuffer gives them).
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <vector>
 
 #include "call.h"
@@ -53,6 +55,17 @@ std::vector<Error> play_all(const Stream& stream) {
   return errors;
 }
 
+std::vector<uint32_t> read_depth(OSMesaContext context, size_t count) {
+  std::vector<uint32_t> depth(count);
+  GLint width, height, bytes;
+  void* values = nullptr;
+  if (function<decltype(OSMesaGetDepthBuffer)>("OSMesaGetDepthBuffer")(context, &width, &height, &bytes,
+                                                                       &values) &&
+      bytes == sizeof(uint32_t) && size_t(width) * size_t(height) == count)
+    std::memcpy(depth.data(), values, count * sizeof(uint32_t));
+  return depth;
+}
+
 bool answer_one() {
   uint32_t header[3];
   if (!read_all(STDIN_FILENO, header, sizeof(header))) return false;
@@ -74,12 +87,14 @@ bool answer_one() {
   const std::vector<Error> errors = play_all(stream);
   function<decltype(glFinish)>("glFinish")();
   const std::vector<uint8_t> picture = pixels;
+  const std::vector<uint32_t> depth = read_depth(context, pixels.size() / 4);
   function<decltype(OSMesaDestroyContext)>("OSMesaDestroyContext")(context);
 
   const uint32_t start[2] = {kDone, static_cast<uint32_t>(errors.size())};
   return write_all(STDOUT_FILENO, start, sizeof(start)) &&
          write_all(STDOUT_FILENO, errors.data(), errors.size() * sizeof(Error)) &&
-         write_all(STDOUT_FILENO, picture.data(), picture.size());
+         write_all(STDOUT_FILENO, picture.data(), picture.size()) &&
+         write_all(STDOUT_FILENO, depth.data(), depth.size() * sizeof(uint32_t));
 }
 
 }  // namespace

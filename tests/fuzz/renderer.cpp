@@ -103,8 +103,12 @@ Outcome Renderer::render(const Stream& stream, int width, int height) {
     call = pair[0];
     error = pair[1];
   }
-  outcome.picture = {width, height, std::vector<uint8_t>(size_t{4} * header[0] * header[1])};
-  if (!read_all(from_, outcome.picture.rgba.data(), outcome.picture.rgba.size())) outcome.trouble = stop();
+  Picture& picture = outcome.picture;
+  const size_t pixels = size_t{header[0]} * header[1];
+  picture = {width, height, std::vector<uint8_t>(4 * pixels), std::vector<uint32_t>(pixels)};
+  if (!read_all(from_, picture.rgba.data(), picture.rgba.size()) ||
+      !read_all(from_, picture.depth.data(), pixels * sizeof(uint32_t)))
+    outcome.trouble = stop();
   return outcome;
 }
 

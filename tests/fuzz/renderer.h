@@ -11,7 +11,8 @@ namespace halfspace::fuzz {
 
 struct Picture {
   int width = 0, height = 0;
-  std::vector<uint8_t> rgba;  // bottom row first
+  std::vector<uint8_t> rgba;    // bottom row first
+  std::vector<uint32_t> depth;  // of our library: 0 .. 2^24 - 1
 };
 
 struct Outcome {

@@ -32,10 +32,9 @@ void Assembly::line(Corner a, Corner b, const Side& side) {
   const Place<int64_t> at[2] = {snapped_place_of(ends[0], state_.viewport),
                                 snapped_place_of(ends[1], state_.viewport)};
   if (at[0].x == at[1].x && at[0].y == at[1].y) return;
-  // Values belong to the ends as they are, unless snapping turns the line into another one.
+  // Values belong to the ends as they are, unless half a sub-pixel changes the line too much.
   const Place<Wide> true_at[2] = {place_of(ends[0], state_.viewport), place_of(ends[1], state_.viewport)};
-  const Wide length = magnitude(true_at[1].x - true_at[0].x) + magnitude(true_at[1].y - true_at[0].y);
-  const bool leaves_grid = length >= 256;
+  const bool leaves_grid = line_may_leave_grid(ends[0], ends[1], state_.viewport);
   const bool wide_line = !smooth && whole_size(state_.line.width, raster::kMaxLineWidth) > 1;
   Surface surface = Surface::of_line(ends[0], ends[1], leaves_grid ? true_at[0] : widened(at[0]),
                                      leaves_grid ? true_at[1] : widened(at[1]), wide_line, state_.viewport);

@@ -141,4 +141,12 @@ bool may_leave_grid(const std::array<Corner, 3>& corners, const raster::Viewport
   return longest / 2 <= area / 4 && slope / 2 <= std::min({w[0], w[1], w[2]}) * area / 4;
 }
 
+bool line_may_leave_grid(const Corner& a, const Corner& b, const raster::Viewport& viewport) {
+  const Place<Wide> from = place_of(a, viewport), to = place_of(b, viewport);
+  const Wide x = to.x - from.x, y = to.y - from.y, half_area = (x * x + y * y) / 2;
+  const Wide w[2] = {1 / a.w, 1 / b.w};
+  return 2 * std::max(magnitude(x), magnitude(y)) <= half_area &&
+         magnitude(w[1] - w[0]) * span(x, y) <= std::min(w[0], w[1]) * half_area;
+}
+
 }  // namespace halfspace::oracle

@@ -54,5 +54,7 @@ class Surface {
 // quarter.
 bool may_leave_grid(const std::array<Corner, 3>& corners, const raster::Viewport& viewport,
                     const std::array<Place<int64_t>, 3>& snapped);
+// The same of a line, as of the triangle it makes with a corner at right angles to it.
+bool line_may_leave_grid(const Corner& a, const Corner& b, const raster::Viewport& viewport);
 
 }  // namespace halfspace::oracle
