@@ -11,7 +11,13 @@ namespace halfspace::gl {
 // OpenGL 1.5 table 2.9: unsigned c / (2^n - 1), signed (2c + 1) / (2^n - 1). Operands up to 16 bits are exact
 // in float, so one division rounds once; 32 bits are divided in double. The largest integer becomes
 // exactly 1.
-inline GLfloat normalized(GLubyte c) { return static_cast<GLfloat>(c) / 255.0f; }
+// Bytes, which programs that call once a vertex pass most, are looked up.
+inline constexpr std::array<GLfloat, 256> kNormalizedBytes = [] {
+  std::array<GLfloat, 256> table{};
+  for (size_t c = 0; c < table.size(); ++c) table[c] = static_cast<GLfloat>(c) / 255.0f;
+  return table;
+}();
+inline GLfloat normalized(GLubyte c) { return kNormalizedBytes[c]; }
 inline GLfloat normalized(GLushort c) { return static_cast<GLfloat>(c) / 65535.0f; }
 inline GLfloat normalized(GLbyte c) { return static_cast<GLfloat>(2 * c + 1) / 255.0f; }
 inline GLfloat normalized(GLshort c) { return static_cast<GLfloat>(2 * c + 1) / 65535.0f; }

@@ -175,9 +175,8 @@ void close_loop(Context& context) {
 }
 
 // Kept out of op::vertex, whose common path is short.
-[[gnu::noinline]] void gather_rare(Context& context, float* v) {
+[[gnu::noinline]] void gather_rare(Context& context) {
   ImmediateState& im = context.immediate;
-  if (im.format.normal) std::memcpy(v + im.format.normal, context.current.normal, 3 * sizeof(float));
   if (im.format.edge_flag) im.edge_flags[im.vertex_count()] = context.current.edge_flag;
   if (!im.materials.empty()) im.material_index[im.vertex_count()] = uint32_t(im.materials.size() - 1);
 }
@@ -196,7 +195,7 @@ VertexFormat vertex_format(const Context& context, GLenum mode) {
     format.floats += 3;
   }
   format.edge_flag = needs.edge_flag;
-  format.rare = needs.normal || needs.edge_flag;
+  format.rare = needs.edge_flag;
   return format;
 }
 
@@ -217,6 +216,13 @@ void gather_material(Context& context, const raster::MaterialPair& pair) {
     im.materials.push_back(pair);
   else
     im.materials.back() = pair;
+}
+
+void forget_state(Context& context) {
+  ImmediateState& im = context.immediate;
+  if (!im.inside && im.waiting == 0) im.state.reset();
+  context.derived.state.reset();
+  mark_dirty(context, kDirtyAll);
 }
 
 void flush_vertices(Context& context) {
@@ -268,8 +274,9 @@ void vertex(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
   v[3] = w;
   std::memcpy(v + 4, context.current.color, 4 * sizeof(float));
   if (im.format.tex_coord) std::memcpy(v + 8, context.current.tex_coord, 4 * sizeof(float));
+  if (im.format.normal) std::memcpy(v + im.format.normal, context.current.normal, 3 * sizeof(float));
   if (im.format.rare) [[unlikely]]
-    gather_rare(context, v);
+    gather_rare(context);
   im.cursor = v + im.format.floats;
 }
 

@@ -20,7 +20,7 @@ struct VertexFormat {
   uint32_t tex_coord = 0;  // where s t r q stand, in floats; 0: nowhere
   uint32_t normal = 0;     // where x y z stand
   bool edge_flag = false;  // gathered aside
-  bool rare = false;       // there is a normal, an edge flag or a material
+  bool rare = false;       // there is an edge flag or a material
   bool operator==(const VertexFormat&) const = default;
 };
 inline constexpr uint32_t kMaxVertexFloats = 15;
@@ -57,6 +57,10 @@ struct ImmediateState {
 
 // glMaterial between Begin and End: vertices from now on have `pair`. May throw std::bad_alloc.
 void gather_material(Context& context, const raster::MaterialPair& pair);
+
+// Lets go of draw states that nothing is to be drawn with any more, and so of the textures they see: one
+// whose image is about to be replaced may then take the new one where the old one lies.
+void forget_state(Context& context);
 
 // Draws what waits. Whoever draws, clears, reads or shows pixels by another way than state/color_buffer.h's
 // functions calls this first.

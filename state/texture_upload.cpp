@@ -59,6 +59,7 @@ void upload(Context& context, const ImageRequest& request, const PixelFormat& fo
   guard_memory(
       context,
       [&] {
+        forget_state(context);
         const std::lock_guard lock(object.mutex);
         if (pixels == nullptr || info.empty()) {
           define_image(object, request.level, info, nullptr);

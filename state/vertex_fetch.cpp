@@ -100,6 +100,9 @@ raster::AttributeStream fetch_range(const ClientArray& array, Conversion convers
                                     size_t count, std::vector<float>& scratch) {
   const std::byte* source = address_of(array, first);
   if (array.type == GL_FLOAT) return {source, stride_bytes(array), uint8_t(array.size)};
+  const bool color_bytes =
+      array.type == GL_UNSIGNED_BYTE && array.size == 4 && conversion == Conversion::normalized;
+  if (color_bytes) return {source, stride_bytes(array), 4, true};
   const size_t size = size_t(array.size);
   if (scratch.size() < size * count) scratch.resize(size * count);
   find_converter(array.type, conversion)(source, stride_bytes(array), size, count, scratch.data());

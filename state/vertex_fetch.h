@@ -17,8 +17,8 @@ size_t type_bytes(GLenum type);
 size_t element_bytes(const ClientArray& array);
 size_t stride_bytes(const ClientArray& array);
 
-// Elements first .. first+count-1. Floats are passed on where they are; other types are converted into
-// `scratch`.
+// Elements first .. first+count-1. Floats, and colours of four bytes, are passed on where they are; other
+// types are converted into `scratch`.
 raster::AttributeStream fetch_range(const ClientArray& array, Conversion conversion, size_t first,
                                     size_t count, std::vector<float>& scratch);
 

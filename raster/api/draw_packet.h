@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 
@@ -17,7 +18,19 @@ struct AttributeStream {
   const void* data = nullptr;  // null: the attribute's default, (0,0,0,1); colour: (1,1,1,1)
   size_t stride = 0;
   uint8_t size = 4;
+  // Colours only: four bytes a vertex, 255 is 1. `size` is 4. The float is the nearest to the quotient.
+  bool bytes = false;
 };
+
+// An element's components; missing ones are left as they are.
+inline void read_element(const AttributeStream& stream, uint32_t vertex, float (&v)[4]) {
+  const auto* from = static_cast<const unsigned char*>(stream.data) + size_t{vertex} * stream.stride;
+  if (stream.bytes) {
+    for (int k = 0; k < 4; ++k) v[k] = static_cast<float>(from[k]) / 255.0f;
+  } else {
+    std::memcpy(v, from, stream.size * sizeof(float));
+  }
+}
 
 struct VertexBatch {
   AttributeStream position;

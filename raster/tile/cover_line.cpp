@@ -91,7 +91,12 @@ struct AxisLine {
     const int64_t scaled = v0 * std::abs(du) + (du < 0 ? -dv : dv) * at;
     const int64_t pitch = std::abs(du) * kSubpixelScale;
     *v = floor_div(scaled, pitch);
-    if (*v * pitch == scaled && makes_fragment(u, *v - 1))
+    return decide(u, *v * pitch == scaled, v);
+  }
+
+  // The same where the line is known to be at row *v in the column's middle, `between`: exactly on its lower edge.
+  bool decide(int64_t u, bool between, int64_t* v) const {
+    if (between && makes_fragment(u, *v - 1))
       --*v;
     else if (!makes_fragment(u, *v))
       return false;
@@ -103,11 +108,13 @@ struct AxisLine {
   int64_t first_column() const { return column_below(std::min(u0, u0 + du)); }
   int64_t last_column() const { return column_below(std::max(u0, u0 + du)); }
 
-  // The line meets the middle of such a column, in a point of an open diamond unless exactly between two, and does
-  // not end in one of the column's: there is a fragment, where the line is at the middle.
-  bool passes_through(int64_t u) const {
-    const int64_t center = u * kSubpixelScale + kHalf;
-    return std::min(u0, u0 + du) < center && center < std::max(u0, u0 + du) && std::abs(u0 + du - center) > kHalf;
+  // In columns [sure_from, sure_to] the line meets the middle, in a point of an open diamond unless exactly
+  // between two, and does not end in one of the column's: there is a fragment, where the line is at the middle.
+  int64_t sure_from() const {
+    return ((std::min(u0, u0 + du) + (du < 0 ? kHalf : 0) - kHalf) >> kSubpixelBits) + 1;
+  }
+  int64_t sure_to() const {
+    return ((std::max(u0, u0 + du) - (du > 0 ? kHalf : 0) + kHalf - 1) >> kSubpixelBits) - 1;
   }
 
  private:
@@ -120,7 +127,8 @@ struct AxisLine {
 // The fragments of a line column by column; where nothing is to be decided, without a division.
 class ColumnWalk {
  public:
-  ColumnWalk(const AxisLine& line, int64_t first) : line_(line), u_(first) {
+  ColumnWalk(const AxisLine& line, int64_t first)
+      : line_(line), u_(first), sure_from_(line.sure_from()), sure_to_(line.sure_to()) {
     const int64_t length = std::abs(line.du), rise = line.du < 0 ? -line.dv : line.dv;
     pitch_ = length * kSubpixelScale;
     const int64_t scaled = line.v0 * length + rise * (first * kSubpixelScale + kHalf - line.u0);
@@ -130,9 +138,9 @@ class ColumnWalk {
   }
   int64_t u() const { return u_; }
   bool fragment(int64_t* v) const {
-    if (rest_ == 0 || !line_.passes_through(u_)) return line_.fragment(u_, v);
     *v = v_;
-    return true;
+    if (rest_ != 0 && u_ >= sure_from_ && u_ <= sure_to_) return true;
+    return line_.decide(u_, rest_ == 0, v);
   }
   void next() {
     ++u_;
@@ -143,7 +151,8 @@ class ColumnWalk {
 
  private:
   const AxisLine& line_;
-  int64_t u_, v_, rest_, step_, pitch_;  // at column u_ the line is at v_ + rest_ / pitch_
+  int64_t u_, sure_from_, sure_to_;
+  int64_t v_, rest_, step_, pitch_;  // at column u_ the line is at v_ + rest_ / pitch_
 };
 
 bool passes(const LineStipple& stipple, uint32_t index) {

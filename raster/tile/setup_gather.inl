@@ -25,6 +25,12 @@ struct SetupInput {
   alignas(64) double rest_x[3][kSetupLanes], rest_y[3][kSetupLanes];
   alignas(64) double z[3][kSetupLanes], inv_w[3][kSetupLanes];
   alignas(64) double attribute[kMaxPlanes - 2][3][kSetupLanes];
+
+  HWY_INLINE void Clear() {
+    memset(head, 0, sizeof head);
+    memset(quad, 0, sizeof quad);
+    memset(in_order, 0, sizeof in_order);
+  }
 };
 
 HWY_INLINE const VertexHead* Head(const ShadedVertices& vertices, size_t stride, uint32_t i) {

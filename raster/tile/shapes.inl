@@ -86,6 +86,8 @@ void RunLine(TileContext& t, const PrimitiveRef& ref, const DrawRecord& draw, co
   RunCoverage(t, lane, coverage);
 }
 
+inline constexpr size_t kPointsAhead = 8;  // their vertices are asked for while others are drawn
+
 // Points of one pixel whose colour is all that their fragments are made from. At standard accuracy it is the same float
 // whether a plane in float or one in double gives it.
 HWY_INLINE bool PacksPoints(const DrawRecord& draw) {

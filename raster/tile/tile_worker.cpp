@@ -281,6 +281,8 @@ void RunSegment(TileContext& t, const Segment& segment) {
     }
     while (at < total && ids[at] < end) {
       if (t.packs_points && RunWaitingPoint(t, segment, record, ids[at])) {
+        if (at + kPointsAhead < total)
+          PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + at + kPointsAhead, 1);
         ++at;
         continue;
       }
@@ -306,7 +308,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   alignas(64) float whole[kBlockPixels];
   for (float& c : whole) c = 1;
   TileContext t;
-  t.input = {};  // lanes beyond a batch's count are computed with, though never used
+  t.input.Clear();  // lanes beyond a batch's count are computed with, though never used
   t.framebuffer = &framebuffer;
   t.state = &framebuffer.tiles.data()[tile];
   t.tile = tile;

@@ -13,7 +13,7 @@ const unsigned char* element(const AttributeStream& stream, uint32_t i) {
 // Compares bits: two NaNs or zeros that differ only cost an interpolation.
 bool is_constant(const AttributeStream& stream, uint32_t count) {
   if (!stream.data || stream.stride == 0) return true;
-  const size_t bytes = size_t(stream.size) * sizeof(float);
+  const size_t bytes = size_t(stream.size) * (stream.bytes ? 1 : sizeof(float));
   for (uint32_t i = 1; i < count; ++i) {
     if (std::memcmp(element(stream, 0), element(stream, i), bytes) != 0) return false;
   }
@@ -28,7 +28,7 @@ float clamp01(float v) {
 Color first_color(const AttributeStream& stream) {
   if (!stream.data) return {1, 1, 1, 1};
   float c[4] = {0, 0, 0, 1};
-  std::memcpy(c, stream.data, size_t(stream.size) * sizeof(float));
+  read_element(stream, 0, c);
   return {clamp01(c[0]), clamp01(c[1]), clamp01(c[2]), clamp01(c[3])};
 }
 

@@ -7,12 +7,17 @@ HWY_INLINE void load_element(const unsigned char* from, int size, const float* f
 
 #if HWY_TARGET == HWY_SCALAR
 
+HWY_INLINE void load_any(const StreamRef& stream, const unsigned char* from, const float* fallback, float* to) {
+  if (!stream.bytes) return load_element(from, stream.size, fallback, to);
+  for (int k = 0; k < 4; ++k) to[k] = float(from[k]) / 255.0f;
+}
+
 HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t count, int columns,
                              const float* fallback, float (*out)[kVertexGroup]) {
   const unsigned char* p = stream.data + size_t{first} * stream.stride;
   for (uint32_t i = 0; i < count; ++i, p += stream.stride) {
     float v[4];
-    load_element(p, stream.size, fallback, v);
+    load_any(stream, p, fallback, v);
     for (int k = 0; k < columns; ++k) out[k][i] = v[k];
   }
 }
@@ -22,7 +27,7 @@ HWY_INLINE void shade_colors(const ShadeJob& job, uint32_t first, uint32_t count
   unsigned char* out = job.records + size_t{first} * job.record_stride + job.color_offset;
   for (uint32_t i = 0; i < count; ++i, p += job.color.stride, out += job.record_stride) {
     float rgba[4];
-    load_element(p, job.color.size, kDefaults, rgba);
+    load_any(job.color, p, kDefaults, rgba);
     for (float& v : rgba) v = v > 0 ? (v < 1 ? v : 1.0f) : 0.0f;
     memcpy(out, rgba, sizeof rgba);
   }
@@ -39,6 +44,7 @@ struct QuadReader {
   const unsigned char* from;
   size_t stride;
   int size;
+  bool bytes;
   uint32_t careful;  // from this element on, no more is read than there is
   const float* fallback;
   QuadVec missing;
@@ -48,6 +54,7 @@ struct QuadReader {
       : from(stream.data + size_t{first} * stream.stride),
         stride(stream.stride),
         size(stream.size),
+        bytes(stream.bytes),
         careful(count - careful_elements(stream, count)),
         fallback(defaults),
         missing(hn::LoadU(Quads(), defaults)),
@@ -55,6 +62,12 @@ struct QuadReader {
 
   HWY_INLINE QuadVec get(uint32_t i) const {
     const unsigned char* p = from + size_t{i} * stride;
+    if (bytes) {
+      const hn::Rebind<uint8_t, Quads> from_bytes;
+      const hn::Rebind<int32_t, Quads> ints;
+      const auto whole = hn::ConvertTo(Quads(), hn::PromoteTo(ints, hn::LoadU(from_bytes, p)));
+      return hn::Div(whole, hn::Set(Quads(), 255.0f));
+    }
     if (HWY_LIKELY(i < careful))
       return hn::IfThenElse(given, hn::LoadU(Quads(), reinterpret_cast<const float*>(p)), missing);
     float v[4];

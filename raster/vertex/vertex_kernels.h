@@ -14,6 +14,7 @@ struct StreamRef {
   const unsigned char* data;  // never null
   size_t stride;              // bytes
   int size;                   // floats, 1..4
+  bool bytes;                 // four of 255ths instead
 };
 
 // Clip to window, with everything that does not change over a draw worked out once.

@@ -317,8 +317,8 @@ constexpr float kDefaultColor[4] = {1, 1, 1, 1};
 constexpr float kDefaultCoord[4] = {0, 0, 0, 1};
 
 StreamRef stream_ref(const AttributeStream& stream, const float* fallback) {
-  if (!stream.data) return {reinterpret_cast<const unsigned char*>(fallback), 0, 4};
-  return {static_cast<const unsigned char*>(stream.data), stream.stride, stream.size};
+  if (!stream.data) return {reinterpret_cast<const unsigned char*>(fallback), 0, 4, false};
+  return {static_cast<const unsigned char*>(stream.data), stream.stride, stream.size, stream.bytes};
 }
 
 int byte_offset(int float_offset) {

@@ -13,10 +13,9 @@ using Float4 = std::array<float, 4>;
 // Components that are not given are 0, 0, 0, 1 (spec 2.7).
 Float4 fetch(const raster::AttributeStream& stream, uint32_t index, const Float4& absent) {
   if (stream.data == nullptr) return absent;
-  Float4 v{0, 0, 0, 1};
-  std::memcpy(v.data(), static_cast<const std::byte*>(stream.data) + size_t{index} * stream.stride,
-              stream.size * sizeof(float));
-  return v;
+  float v[4] = {0, 0, 0, 1};
+  raster::read_element(stream, index, v);
+  return {v[0], v[1], v[2], v[3]};
 }
 
 std::array<Wide, 4> times(const std::array<double, 16>& m, const std::array<Wide, 4>& v) {

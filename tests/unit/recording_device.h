@@ -34,11 +34,10 @@ inline bool fail_next_draw = false;
 
 inline std::array<float, 4> read_attribute(const AttributeStream& stream, uint32_t index,
                                            std::array<float, 4> value) {
-  if (stream.data) {
-    std::memcpy(value.data(), static_cast<const std::byte*>(stream.data) + index * stream.stride,
-                stream.size * sizeof(float));
-  }
-  return value;
+  if (stream.data == nullptr) return value;
+  float v[4] = {value[0], value[1], value[2], value[3]};
+  read_element(stream, index, v);
+  return {v[0], v[1], v[2], v[3]};
 }
 
 struct Device::Impl {
