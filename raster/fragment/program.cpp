@@ -382,19 +382,42 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
 
 namespace {
 
-ProgramCode find_code(const CodeKey& key) {
-  ProgramCode code;
+// Whether all a list does is to store a colour that is the same for all of a primitive.
+bool stores_one_value(const StageList& list) {
+  using enum StageId;
+  return list.count == 3 && (list.ids[0] == color_constant || list.ids[0] == color_flat) && list.ids[1] == round_rgba8 &&
+         list.ids[2] == write_rgba8;
+}
+
+// Puts the flat colour into the interpolated one's place; false if there is none.
+bool take_flat_color(StageList& list) {
+  for (StageId& id : list.ids) {
+    if (id != StageId::color_affine && id != StageId::color_affine_open) continue;
+    id = StageId::color_flat;
+    return true;
+  }
+  return false;
+}
+
+BlockProgram cover_blocks(const CodeKey& key, const StageList& list) {
+  BlockProgram blocks;
   const bool fuses = key.fuse && !key.given_depth;
   BlockFunction KernelPair::*const kind = key.given_depth ? &KernelPair::given_depth : &KernelPair::block;
-  for (unsigned variant = 0; variant < kVariantCount; ++variant) {
-    const StageList& list = key.lists[variant];
-    BlockProgram& blocks = code.variants[variant];
-    if (key.both_planes) {
-      cover(list, 0, list.tail, fuses, kind, blocks);
-      blocks.head = blocks.count;
-    }
-    cover(list, key.both_planes ? list.tail : 0, list.count, fuses, kind, blocks);
+  if (key.both_planes) {
+    cover(list, 0, list.tail, fuses, kind, blocks);
+    blocks.head = blocks.count;
   }
+  cover(list, key.both_planes ? list.tail : 0, list.count, fuses, kind, blocks);
+  blocks.fills = !key.both_planes && blocks.count == 1 && stores_one_value(list);
+  return blocks;
+}
+
+ProgramCode find_code(const CodeKey& key) {
+  ProgramCode code;
+  for (unsigned variant = 0; variant < kVariantCount; ++variant)
+    code.variants[variant] = cover_blocks(key, key.lists[variant]);
+  StageList even = key.lists[kAffine];
+  if (take_flat_color(even)) code.even = cover_blocks(key, even);
   code.packs = key.may_pack;
   for (unsigned variant = 0; variant <= kAffine; ++variant) {
     const StageList& list = key.lists[variant];

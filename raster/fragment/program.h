@@ -33,6 +33,7 @@ struct BlockProgram {
   std::array<BlockFunction, kMaxStages> kernels{};
   std::array<StageId, kMaxStages> stages{};  // the first, or only, stage of each kernel
   int count = 0;
+  bool fills = false;  // one kernel that stores the same pixel value everywhere, whatever was there
   int head = 0;  // kernels before the first that touches colour memory, where there are two planes to do that to
   void run(BlockContext& block) const { run(block, 0, count); }
   void run_head(BlockContext& block) const { run(block, 0, head); }
@@ -48,6 +49,8 @@ struct BlockProgram {
 
 struct ProgramCode {
   BlockProgram variants[kVariantCount];
+  // Variant kAffine for primitives that have one colour all over, though the draw's colours differ. Empty: none.
+  BlockProgram even;
   // Small triangles: depth test first, then these on packed fragments. [0] perspective, [kAffine] affine, in float.
   BlockProgram packed[2];
   bool packs = false;

@@ -36,6 +36,9 @@ struct TileContext {
   uint64_t stipple[16];  // pixels of the blocks (y % 4) * 4 + x % 4
   int plane_count;
   bool flat_color;
+  bool even = false;  // the primitive at hand takes the program's variant for one colour all over
+  bool knows_deepest = false;
+  uint32_t deepest = 0;  // of the blocks' depth_max, where that is known
   bool packs_points;  // points of one pixel wait with the others, without any set-up
   TileStatistics* statistics;
   BlockContext block;
@@ -45,28 +48,23 @@ struct TileContext {
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
 };
 
-// The plane's least (sign = -1) or greatest (sign = 1) depth over the pixel centres of the block.
-HWY_INLINE double BlockDepth(const SetupBatch& s, int lane, double dx, double dy, int sign) {
-  const double gx = s.dfdx[0][lane], gy = s.dfdy[0][lane];
-  const double far_x = (gx > 0) == (sign > 0) ? dx + (kBlockSize - 1) : dx;
-  const double far_y = (gy > 0) == (sign > 0) ? dy + (kBlockSize - 1) : dy;
-  return s.f0[0][lane] + gy * far_y + gx * far_x;
-}
+#include "raster/tile/fill.inl"
 
-// Coarse z, rounded away from the decision: a block is dropped only if every pixel would fail.
 HWY_INLINE bool BlockIsHidden(const TileContext& t, int lane, int block) {
-  double least = BlockDepth(t.setup, lane, t.block.dx, t.block.dy, -1);
-  if (least > kDepthScale) least = kDepthScale;  // an offset may take it beyond; fragments are held to the range
-  return least - 1.0 > static_cast<double>(t.state->depth_max[block]) + 1.0;
+  const double least = BoxDepth(t.setup, lane, t.block.dx, t.block.dy, kBlockSize - 1, kBlockSize - 1, -1);
+  return IsBehind(least, t.state->depth_max[block]);
 }
 
 HWY_INLINE void UpdateDepthMax(TileContext& t, int lane, int block, bool full) {
   if (t.program->depth_may_grow) {
     t.state->depth_max[block] = kDepthMax;
+    t.knows_deepest = false;
   } else if (full && t.program->depth_pass_lowers) {
-    const double greatest = BlockDepth(t.setup, lane, t.block.dx, t.block.dy, 1) + 1.0;
-    if (greatest >= 0 && greatest < static_cast<double>(t.state->depth_max[block]))
+    const double greatest = BoxDepth(t.setup, lane, t.block.dx, t.block.dy, kBlockSize - 1, kBlockSize - 1, 1) + 1.0;
+    if (greatest >= 0 && greatest < static_cast<double>(t.state->depth_max[block])) {
       t.state->depth_max[block] = static_cast<uint32_t>(greatest);
+      t.knows_deepest = false;
+    }
   }
 }
 
@@ -115,8 +113,9 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   const auto fragments = static_cast<uint64_t>(__builtin_popcountll(mask));
   t.statistics->fragments += fragments;
   if ((s.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
-  if (program.both_planes) RunOnBothPlanes(t, program.variants[s.variant[lane]], block);
-  else program.variants[s.variant[lane]].run(c);
+  const BlockProgram& stages = t.even ? program.even : program.variants[s.variant[lane]];
+  if (program.both_planes) RunOnBothPlanes(t, stages, block);
+  else stages.run(c);
   UpdateDepthMax(t, lane, block, mask == ~uint64_t{0});
 }
 
@@ -162,6 +161,7 @@ HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
   if ((t.state->color[plane].is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks, plane);
   if (t.program->depth_may_grow)
     for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) t.state->depth_max[__builtin_ctzll(todo)] = kDepthMax;
+  if (t.program->depth_may_grow) t.knows_deepest = false;
 }
 
 // Makes room for `count` fragments of `variant` in `blocks` among those that wait, and gives the depth they are tested
@@ -220,16 +220,41 @@ void WalkBlock(TileContext& t, int lane, int block, uint64_t mask, bool packs) {
   RunBlock(t, lane, block, mask);
 }
 
-void WalkTriangle(TileContext& t, int lane, bool packs) {
+// Blocks of the triangle that are covered all over and only to be filled; what else it covers is drawn.
+uint64_t WalkBlocks(TileContext& t, const TriangleWalk& walk, int lane, bool packs, bool fills) {
   const SetupBatch& s = t.setup;
-  const TriangleWalk walk(s, lane);
+  uint64_t filled = 0;
   for (int by = s.min_y[lane] / kBlockSize; by <= s.max_y[lane] / kBlockSize; ++by) {
     for (int bx = s.min_x[lane] / kBlockSize; bx <= s.max_x[lane] / kBlockSize; ++bx) {
       uint64_t mask = walk.Coverage(bx * kBlockSize, by * kBlockSize, s.min_y[lane], s.max_y[lane]);
       if (t.masks_blocks && mask != 0) mask &= BlockMask(t, by * 8 + bx);
-      if (mask != 0) WalkBlock(t, lane, by * 8 + bx, mask, packs);
+      if (fills && mask == ~uint64_t{0}) filled |= uint64_t{1} << (by * 8 + bx);
+      else if (mask != 0) WalkBlock(t, lane, by * 8 + bx, mask, packs);
     }
   }
+  return filled;
+}
+
+void WalkTriangle(TileContext& t, int lane, bool packs) {
+  if (TileHides(t, lane)) return;
+  const TriangleWalk walk(t.setup, lane);
+  t.even = HasEvenColor(t, lane);
+  const BlockProgram& stages = t.even ? t.program->even : t.program->variants[t.setup.variant[lane]];
+  const bool whole = !t.masks_blocks && walk.CoversTile();
+  uint64_t filled = 0;
+  if (whole && stages.fills) {
+    filled = ~uint64_t{0};
+  } else if (whole) {
+    FlushPacked(t);
+    for (int block = 0; block < kTileBlocks; ++block) RunBlock(t, lane, block, ~uint64_t{0});
+  } else {
+    filled = WalkBlocks(t, walk, lane, packs, stages.fills);
+  }
+  if (filled != 0) {
+    if ((t.packer.blocks & filled) != 0) FlushPacked(t);
+    FillBlocks(t, filled, EvenPixel(t, lane, stages));
+  }
+  t.even = false;
 }
 
 HWY_INLINE bool Packs(const TileContext& t, int lane) {

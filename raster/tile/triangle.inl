@@ -37,6 +37,12 @@ struct TriangleWalk {
     return Rows(e, first, last);
   }
 
+  HWY_INLINE bool CoversTile() const {
+    int32_t least = 0;
+    for (int k = 0; k < 3; ++k) least |= edge[k] + lowest[k] / (kBlockSize - 1) * (kTileSize - 1);
+    return least >= 0;
+  }
+
   // Pixels inside, of the window of `width` x `height` (at most 8 each) pixels whose first one is (x, y) of the tile:
   // bit 8 * row + column.
   HWY_INLINE uint64_t Window(int x, int y, int width, int height) const {
