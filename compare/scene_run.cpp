@@ -20,7 +20,7 @@ bool is_ours(Renderer renderer) { return renderer == Renderer::ours || renderer 
 std::vector<EnvironmentVariable> environment_of(const SceneJob& job) {
   if (is_ours(job.renderer)) {
     std::vector<EnvironmentVariable> ours{library_path_with(library_folder(kOurLibrary, job.library))};
-    ours.emplace_back("HALFSPACE_ACCURACY", job.renderer == Renderer::ours_draft ? "draft" : "standard");
+    ours.emplace_back("HALFSPACE_ACCURACY", job.renderer == Renderer::ours_draft ? "filter=draft" : "standard");
     if (job.threads > 0) ours.emplace_back("HALFSPACE_THREADS", std::to_string(job.threads));
     return ours;
   }

@@ -15,7 +15,7 @@ constexpr int kSceneCount = 8;
 
 enum class Renderer {
   ours,
-  ours_draft,    // at the draft level: textures filtered with 8-bit weights, as llvmpipe does
+  ours_draft,    // the filter at the draft level: 8-bit weights, as llvmpipe has them
   osmesa,        // Debian's libOSMesa, llvmpipe
   osmesa_float,  // the same, made to filter textures in float
 };

@@ -11,13 +11,14 @@ enum class Level : uint8_t { draft, standard, exact };
 
 struct Accuracy {
   Level perspective = Level::standard;    // the divide by w
-  Level interpolation = Level::standard;  // planes of colours, texture coordinates and distances
-  Level filter = Level::standard;  // weights and sums of a texture's filter, and what is done with its texel
-  Level lod = Level::standard;     // the level-of-detail parameter
-  Level fog = Level::standard;     // the exponential
-  Level power = Level::standard;   // of specular highlights and spotlights
-  Level transform = Level::standard;  // of vertices, normals and what lighting makes of them
-  Level coverage = Level::standard;   // of the pixels at a smooth shape's edge
+  Level interpolation = Level::standard;  // planes of what varies, and colours on their way to memory
+  Level filter = Level::standard;         // weights and sums of a texture's filter
+  Level lod = Level::standard;            // the level-of-detail parameter
+  Level fog = Level::standard;            // the exponential
+  Level power = Level::standard;          // of specular highlights and spotlights
+  Level transform =
+      Level::standard;               // of normals and texture coordinates, and lighting; positions always are
+  Level coverage = Level::standard;  // of the pixels at a smooth shape's edge
 
   static constexpr Accuracy all(Level level) {
     return {level, level, level, level, level, level, level, level};

@@ -63,7 +63,6 @@ struct FragmentParams {
   uint32_t color_mask = ~0u;  // bytes to write, as packed
   Accuracy accuracy;
   PlaneRule plane_rule = PlaneRule::by_bound;
-  bool runs = false;     // perspective in runs, on primitives wider or higher than one
   bool one_lambda = false;  // the lookup wants SetupBatch::lambda
   ExactParams exact;
 };

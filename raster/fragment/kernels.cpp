@@ -30,7 +30,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/logic_op.inl"
 #include "raster/fragment/stages/sample.inl"
 #include "raster/fragment/stages/levels.inl"
-#include "raster/fragment/stages/runs.inl"
 #include "raster/fragment/stages/stencil.inl"
 #include "raster/fragment/stages/wide_planes.inl"
 #include "raster/fragment/stages/wide_sample.inl"

@@ -52,14 +52,9 @@ bool blends(const BlendState& blend) {
 // Stages hand on doubles: the exact level of interpolation.
 bool is_wide(const DrawState& state) { return state.accuracy.interpolation == Level::exact; }
 
-// The stage for the divide by w as the perspective axis wants it, or none of its own. Draft: primitives that take the
-// other variant than that of planes in float go in runs (SetPlanes).
-StageId divide_stage(const DrawState& state, unsigned variant, StageId runs, StageId precise) {
-  const Level level = state.accuracy.perspective;
-  if ((variant & kAffine) != 0 || level == Level::standard) return StageId::count;
-  const bool in_double = (variant & kDouble) != 0;
-  if (level == Level::draft) return in_double ? runs : StageId::count;
-  return in_double ? StageId::count : precise;
+// The divide by w of planes in float, in double: the exact level of the perspective axis.
+bool divides_precisely(const DrawState& state, unsigned variant) {
+  return state.accuracy.perspective == Level::exact && variant == 0;
 }
 
 StageId color_stage(const DrawState& state, const VertexLayout& layout, unsigned variant) {
@@ -67,8 +62,7 @@ StageId color_stage(const DrawState& state, const VertexLayout& layout, unsigned
   if (layout.color < 0) return is_wide(state) ? color_constant_wide : color_constant;
   if (state.raster.flat_shading) return is_wide(state) ? color_flat_wide : color_flat;
   if (is_wide(state)) return color_wide;
-  const StageId divide = divide_stage(state, variant, color_runs, color_perspective_precise);
-  if (divide != StageId::count) return divide;
+  if (divides_precisely(state, variant)) return color_perspective_precise;
   constexpr StageId kSmooth[kVariantCount] = {color_perspective, color_affine, color_perspective_double,
                                               color_affine_double};
   return kSmooth[variant];
@@ -82,12 +76,8 @@ void add_color(const DrawState& state, const VertexLayout& layout, unsigned vari
 StageId coord_stage(const DrawState& state, const VertexLayout& layout, unsigned variant) {
   using enum StageId;
   if (is_wide(state)) return layout.projective ? coord_projective_wide : coord_wide;
-  if (layout.projective) {
-    if ((variant & kDouble) == 0) return coord_projective;
-    return state.accuracy.perspective == Level::draft ? coord_runs_projective : coord_projective_double;
-  }
-  const StageId divide = divide_stage(state, variant, coord_runs, coord_perspective_precise);
-  if (divide != StageId::count) return divide;
+  if (layout.projective) return (variant & kDouble) != 0 ? coord_projective_double : coord_projective;
+  if (divides_precisely(state, variant)) return coord_perspective_precise;
   constexpr StageId kCoord[kVariantCount] = {coord_perspective, coord_affine, coord_perspective_double,
                                              coord_affine_double};
   return kCoord[variant];
@@ -267,7 +257,6 @@ void set_accuracy_params(const DrawState& state, const VertexLayout& layout, Fra
   if (accuracy == Accuracy()) return;
   if (accuracy.interpolation == Level::draft) params.plane_rule = PlaneRule::in_float;
   if (accuracy.interpolation == Level::exact) params.plane_rule = PlaneRule::in_double;
-  params.runs = accuracy.perspective == Level::draft && accuracy.interpolation != Level::exact;
   params.one_lambda = accuracy.lod == Level::draft && state.texture.view != nullptr && layout.tex_coord >= 0 &&
                       needs_lambda(*state.texture.view);
   if (is_wide(state) || accuracy.fog == Level::exact) params.exact = make_exact_params(state, layout);
@@ -319,8 +308,7 @@ void add_depth_and_stencil(const DrawState& state, StageList& list) {
 StageId fog_stage(const DrawState& state, unsigned variant) {
   using enum StageId;
   if (is_wide(state) || state.accuracy.fog == Level::exact) return fog_wide;
-  const StageId divide = divide_stage(state, variant, fog_runs, fog_perspective_precise);
-  if (divide != StageId::count) return divide;
+  if (divides_precisely(state, variant)) return fog_perspective_precise;
   constexpr StageId kFog[kVariantCount] = {fog_perspective, fog_affine, fog_perspective_double, fog_affine_double};
   return kFog[variant];
 }

@@ -258,12 +258,12 @@ bool Clipper::triangle_planes(const uint32_t v[3], const Polygon& polygon, Plane
   out.planes[0] = depth;
   out.planes[1] = combine(inverse, 1, 1, 1);
   bool usable = is_finite(depth) && is_finite(out.planes[1]);
-  const float* a[3];
-  for (int i = 0; i < 3; ++i) a[i] = draw_.vertices.attributes(sorted[i]);
   const bool back = (polygon.area > 0) != draw_.state->raster.front_is_ccw;
   for (int k = 0; k < draw_.vertices.layout.attribute_count; ++k) {
     const int at = draw_.vertices.layout.place(k, back);
-    out.planes[2 + k] = combine(inverse, double(a[0][at]), double(a[1][at]), double(a[2][at]));
+    const ShadedVertices& vertices = draw_.vertices;
+    out.planes[2 + k] = combine(inverse, vertices.attribute(sorted[0], at), vertices.attribute(sorted[1], at),
+                                vertices.attribute(sorted[2], at));
     usable = usable && is_finite(out.planes[2 + k]);
   }
   return usable;

@@ -70,10 +70,9 @@ bool Clipper::clip_line(const uint32_t v[2], unsigned outcodes, CutTriangle& out
   planes.planes[0] = placed.along(depth(a), depth(b));
   planes.planes[1] = placed.along(1 / a.clip.w, 1 / b.clip.w);
   bool usable = is_finite(planes.planes[0]) && is_finite(planes.planes[1]);
-  const float *f = vertices.attributes(v[0]), *g = vertices.attributes(v[1]);
   for (int k = 0; k < vertices.layout.attribute_count; ++k) {
     const auto value = [&](const LinePoint& q) {
-      return (q.weight[0] * double(f[k]) + q.weight[1] * double(g[k])) / q.clip.w;
+      return (q.weight[0] * vertices.attribute(v[0], k) + q.weight[1] * vertices.attribute(v[1], k)) / q.clip.w;
     };
     planes.planes[2 + k] = placed.along(value(a), value(b));
     usable = usable && is_finite(planes.planes[2 + k]);

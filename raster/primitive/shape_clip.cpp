@@ -78,9 +78,8 @@ ShapeVertex shape_vertex(const DrawRecord& draw, uint32_t v, bool back) {
   if (draw.clip_distances != nullptr) {
     std::copy_n(draw.clip_distances + size_t{v} * kMaxClipPlanes, kMaxClipPlanes, out.user);
   }
-  const float* values = draw.vertices.attributes(v);
   const VertexLayout& layout = draw.vertices.layout;
-  for (int i = 0; i < layout.attribute_count; ++i) out.value[i] = double(values[layout.place(i, back)]);
+  for (int i = 0; i < layout.attribute_count; ++i) out.value[i] = draw.vertices.attribute(v, layout.place(i, back));
   return out;
 }
 

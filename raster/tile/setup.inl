@@ -5,7 +5,8 @@ inline constexpr double kDepthScale = static_cast<double>(kDepthMax);
 
 inline constexpr double kTexelTolerance = 1.0 / 1024;  // texels of level 0 the float path may be off
 inline constexpr double kColorTolerance = 1.0 / 64;    // levels of 255
-inline constexpr double kFloatUlps = 3.0 / (1 << 24);  // three roundings, of 2^-24 each, on the way to a term
+inline constexpr double kFloatUlps =
+    3.0 / (1 << 24);  // roundings, of 2^-24 each: docs/numerics.md, "Precision on demand"
 
 struct CornerVectors {
   VD x[3], y[3];
@@ -14,8 +15,9 @@ struct CornerVectors {
 HWY_INLINE VD LoadInt(const int32_t* from) { return hn::PromoteTo(DD(), hn::Load(DDi(), from)); }
 HWY_INLINE void StoreInt(VD v, int32_t* to) { hn::Store(hn::DemoteTo(DDi(), v), DDi(), to); }
 
-// Edge from corner a to corner b of a counter-clockwise triangle at the tile's first pixel centre. Top-left rule,
-// y up: a pixel centre on the edge is inside if the edge goes down (a left edge) or runs leftward (a top edge).
+// Edge from corner a to corner b of a counter-clockwise triangle at the tile's first pixel centre. Top-left
+// rule, y up: a pixel centre on the edge is inside if the edge goes down (a left edge) or runs leftward (a
+// top edge).
 HWY_INLINE void SetEdge(const CornerVectors& v, int a, int b, int edge, int i, VD center_x, VD center_y,
                         SetupBatch& out) {
   const DD d;
@@ -23,7 +25,8 @@ HWY_INLINE void SetEdge(const CornerVectors& v, int a, int b, int edge, int i, V
   const VD dx = hn::Sub(v.x[b], v.x[a]), dy = hn::Sub(v.y[b], v.y[a]);
   VD e = hn::Sub(hn::Mul(dx, hn::Sub(center_y, v.y[a])), hn::Mul(dy, hn::Sub(center_x, v.x[a])));
   const auto inclusive = hn::Or(hn::Lt(dy, zero), hn::And(hn::Eq(dy, zero), hn::Lt(dx, zero)));
-  e = hn::Floor(hn::Mul(hn::Sub(e, hn::IfThenZeroElse(inclusive, hn::Set(d, 1.0))), hn::Set(d, 1.0 / kSubpixelScale)));
+  e = hn::Floor(
+      hn::Mul(hn::Sub(e, hn::IfThenZeroElse(inclusive, hn::Set(d, 1.0))), hn::Set(d, 1.0 / kSubpixelScale)));
   // Beyond 2^30 the sign holds all over the tile.
   const VD limit = hn::Set(d, 1073741824.0);
   StoreInt(hn::Min(hn::Max(e, hn::Sub(hn::Neg(limit), hn::Set(d, 1.0))), limit), &out.edge[edge][i]);
@@ -32,10 +35,11 @@ HWY_INLINE void SetEdge(const CornerVectors& v, int a, int b, int edge, int i, V
 }
 
 // Pixels whose centres lie in the primitive's box and in `limit` (relative to the tile, half-open).
-HWY_INLINE void SetBox(const SetupInput& in, int32_t center_x, int32_t center_y, const Rect& limit, SetupBatch& out) {
+HWY_INLINE void SetBox(const SetupInput& in, int32_t center_x, int32_t center_y, const Rect& limit,
+                       SetupBatch& out) {
   using D = hn::CappedTag<int32_t, kSetupLanes>;
   const D d;
-  auto axis = [&](const int32_t (&p)[3][kSetupLanes], int i, int32_t center, int low, int high, int32_t* least,
+  auto axis = [&](const int32_t(&p)[3][kSetupLanes], int i, int32_t center, int low, int high, int32_t* least,
                   int32_t* most) {
     const auto a = hn::Load(d, p[0] + i), b = hn::Load(d, p[1] + i), c = hn::Load(d, p[2] + i);
     const auto smallest = hn::Sub(hn::Min(hn::Min(a, b), c), hn::Set(d, center - (kSubpixelScale - 1)));
@@ -49,16 +53,17 @@ HWY_INLINE void SetBox(const SetupInput& in, int32_t center_x, int32_t center_y,
   }
 }
 
-// What the planes of a group of lanes are made from, and how wrong floats would be. Coverage takes the corners where
-// they were snapped to; planes belong to the corners as they were before, so that what is drawn does not move with
-// the snapping. That needs a triangle which snapping hardly changes: one it does is taken as snapped.
+// What the planes of a group of lanes are made from, and how wrong floats would be. Coverage takes the
+// corners where they were snapped to; planes belong to the corners as they were before, so that what is drawn
+// does not move with the snapping. That needs a triangle which snapping hardly changes: one it does is taken
+// as snapped.
 struct PlaneMaker {
   VD ex1, ey1, ex2, ey2, scale;
   VD inv_w[3];
   VD rest_x, rest_y;  // from the reference vertex as snapped to where it was, pixels
   VD moved;           // the most a corner was moved along either axis, pixels
   hn::Mask<DD> affine;
-  VD width, height;    // pixels
+  VD width, height;     // pixels
   VD w_error, w_least;  // of the 1/w plane in float; its least value at a covered pixel
   VD w_spread;          // 1 / w_least
   VD w_excess;          // 1/w at the corner where it is least over w_least
@@ -82,9 +87,9 @@ struct PlaneMaker {
     w_least = w_spread = w_excess = hn::Set(d, 1.0);
   }
 
-  // Moves the corners to where they were before snapping. A covered pixel may then lie outside the triangle, by half
-  // a sub-pixel: no barycentric coordinate, and no 1/w in parts of its least value, may change over that by more than
-  // a quarter, or else the corners stay.
+  // Moves the corners to where they were before snapping. A covered pixel may then lie outside the triangle,
+  // by half a sub-pixel: no barycentric coordinate, and no 1/w in parts of its least value, may change over
+  // that by more than a quarter, or else the corners stay.
   HWY_INLINE void TakeBackSnapping(const SetupInput& in, int i, VD& area) {
     const DD d;
     VD rx[3], ry[3];
@@ -92,9 +97,11 @@ struct PlaneMaker {
     const VD x1 = hn::Add(ex1, hn::Sub(rx[1], rx[0])), y1 = hn::Add(ey1, hn::Sub(ry[1], ry[0]));
     const VD x2 = hn::Add(ex2, hn::Sub(rx[2], rx[0])), y2 = hn::Add(ey2, hn::Sub(ry[2], ry[0]));
     const VD true_area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
-    const VD longest = hn::Max(hn::Max(Length(x1, y1), Length(x2, y2)), Length(hn::Sub(x2, x1), hn::Sub(y2, y1)));
+    const VD longest =
+        hn::Max(hn::Max(Length(x1, y1), Length(x2, y2)), Length(hn::Sub(x2, x1), hn::Sub(y2, y1)));
     const VD d1 = hn::Sub(inv_w[1], inv_w[0]), d2 = hn::Sub(inv_w[2], inv_w[0]);
-    const VD slope = Length(hn::Sub(hn::Mul(d1, y2), hn::Mul(d2, y1)), hn::Sub(hn::Mul(d2, x1), hn::Mul(d1, x2)));
+    const VD slope =
+        Length(hn::Sub(hn::Mul(d1, y2), hn::Mul(d2, y1)), hn::Sub(hn::Mul(d2, x1), hn::Mul(d1, x2)));
     const VD least = hn::Min(hn::Min(inv_w[0], inv_w[1]), inv_w[2]);
     const VD half = hn::Mul(true_area, hn::Set(d, 0.5));  // a quarter over half a sub-pixel
     const auto use = hn::And(hn::Le(longest, half), hn::Le(slope, hn::Mul(least, half)));
@@ -133,7 +140,8 @@ struct PlaneMaker {
     hn::Store(hn::DemoteTo(f, f0), f, out.f0_f[plane] + i);
     hn::Store(hn::DemoteTo(f, dfdx), f, out.dfdx_f[plane] + i);
     hn::Store(hn::DemoteTo(f, dfdy), f, out.dfdy_f[plane] + i);
-    const VD reach = hn::Add(hn::Abs(f0), hn::Add(hn::Mul(hn::Abs(dfdx), width), hn::Mul(hn::Abs(dfdy), height)));
+    const VD reach =
+        hn::Add(hn::Abs(f0), hn::Add(hn::Mul(hn::Abs(dfdx), width), hn::Mul(hn::Abs(dfdy), height)));
     return {hn::Mul(reach, hn::Set(d, kFloatUlps)), hn::Mul(Length(dfdx, dfdy), moved)};
   }
 
@@ -146,12 +154,18 @@ struct PlaneMaker {
     w_least = hn::IfThenElse(affine, one, hn::Sub(least, bounds.drift));
     w_spread = hn::Div(one, w_least);
     w_excess = hn::IfThenElse(affine, one, hn::Mul(least, w_spread));
+    // The bounds of attributes take 1/w in float for nearly right, and for a normal number.
+    const VD nearly = hn::Max(w_error, hn::Set(d, 0x1p-108));
+    needs_double =
+        hn::Not(hn::Ge(hn::Mul(w_least, hn::Set(d, 1.0 / 256)), hn::IfThenZeroElse(affine, nearly)));
   }
 
-  // An attribute: plane of value / w, or of the value itself where w is constant (unless `divided` anyway). A pixel's
-  // value errs by (error of value/w + value * error of 1/w) * w, and by the roundings of the divide. It is largest at
-  // a snapped corner, where neither value/w nor 1/w differ by more than their drift from what they are at the corner.
-  HWY_INLINE void StoreAttribute(const VD value[3], int plane, int i, bool divided, VD tolerance, SetupBatch& out) {
+  // An attribute: plane of value / w, or of the value itself where w is constant (unless `divided` anyway). A
+  // pixel's value errs by (error of value/w + value * error of 1/w) * w, and by the roundings of the divide.
+  // It is largest at a snapped corner, where neither value/w nor 1/w differ by more than their drift from
+  // what they are at the corner.
+  HWY_INLINE void StoreAttribute(const VD value[3], int plane, int i, bool divided, VD tolerance,
+                                 SetupBatch& out) {
     const DD d;
     VD weighted[3];
     for (int k = 0; k < 3; ++k) {
@@ -167,7 +181,8 @@ struct PlaneMaker {
   }
 };
 
-// REPEAT: whole turns come off before anything becomes float. All lanes take part; others' Wrap leaves values alone.
+// REPEAT: whole turns come off before anything becomes float. All lanes take part; others' Wrap leaves values
+// alone.
 HWY_INLINE void TakeWholeTurns(VD value[3]) {
   const VD turns = hn::Floor(hn::Min(hn::Min(value[0], value[1]), value[2]));
   for (int k = 0; k < 3; ++k) value[k] = hn::Sub(value[k], turns);
@@ -175,14 +190,8 @@ HWY_INLINE void TakeWholeTurns(VD value[3]) {
 
 // The accuracy axes' say in which planes a primitive is interpolated by.
 HWY_NOINLINE void ApplyPlaneRule(const FragmentParams& params, PlaneMaker& maker) {
-  const DD d;
   if (params.plane_rule == PlaneRule::in_double) maker.needs_double = hn::Eq(maker.scale, maker.scale);
   if (params.plane_rule == PlaneRule::in_float) maker.needs_double = hn::Ne(maker.scale, maker.scale);
-  if (!params.runs) return;
-  // Divided in runs, by planes in double at their ends: what is larger than a run.
-  const VD run = hn::Set(d, 16.0);
-  const auto large = hn::Or(hn::Gt(maker.width, run), hn::Gt(maker.height, run));
-  maker.needs_double = hn::Or(maker.needs_double, hn::AndNot(maker.affine, large));
 }
 
 HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, const FragmentParams& params,
@@ -192,7 +201,8 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
   VD value[3];
   for (int k = 0; k < 3; ++k) value[k] = hn::Mul(hn::Load(d, in.z[k] + i), hn::Set(d, kDepthScale));
   maker.Store(value, 0, i, out);
-  hn::Store(hn::Add(hn::Load(d, out.f0[0] + i), hn::Set(d, 0.5)), d, out.f0[0] + i);  // truncation then rounds to nearest
+  hn::Store(hn::Add(hn::Load(d, out.f0[0] + i), hn::Set(d, 0.5)), d,
+            out.f0[0] + i);  // truncation then rounds to nearest
   maker.StoreInvW(i, out);
   if (layout.color >= 0) {
     for (int a = layout.color; a < layout.color + 4; ++a) {
@@ -201,21 +211,23 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
     }
   }
   if (layout.tex_coord >= 0) {
-    const double size[3] = {static_cast<double>(params.levels[0].width), static_cast<double>(params.levels[0].height), 1};
+    const double size[3] = {static_cast<double>(params.levels[0].width),
+                            static_cast<double>(params.levels[0].height), 1};
     const Wrap wrap[3] = {params.sampler.wrap_s, params.sampler.wrap_t, Wrap::clamp};
     for (int a = 0; a < (layout.projective ? 3 : 2); ++a) {
       for (int k = 0; k < 3; ++k) value[k] = hn::Load(d, in.attribute[layout.tex_coord + a][k] + i);
       if (!layout.projective && wrap[a] == Wrap::repeat) TakeWholeTurns(value);
-      maker.StoreAttribute(value, 2 + layout.tex_coord + a, i, layout.projective, hn::Set(d, kTexelTolerance / size[a]),
-                           out);
+      maker.StoreAttribute(value, 2 + layout.tex_coord + a, i, layout.projective,
+                           hn::Set(d, kTexelTolerance / size[a]), out);
     }
     if (layout.projective) maker.needs_double = hn::Eq(maker.scale, maker.scale);
   }
   if (layout.fog >= 0) {
     for (int k = 0; k < 3; ++k) value[k] = hn::Load(d, in.attribute[layout.fog][k] + i);
-    maker.StoreAttribute(value, 2 + layout.fog, i, false, hn::Set(d, kColorTolerance * params.fog.level_span), out);
+    maker.StoreAttribute(value, 2 + layout.fog, i, false, hn::Set(d, kColorTolerance * params.fog.level_span),
+                         out);
   }
-  if (HWY_UNLIKELY(params.plane_rule != PlaneRule::by_bound || params.runs)) ApplyPlaneRule(params, maker);
+  if (HWY_UNLIKELY(params.plane_rule != PlaneRule::by_bound)) ApplyPlaneRule(params, maker);
   // Variant bits by way of integers: one small number a lane.
   const VD bits = hn::Add(hn::IfThenElseZero(maker.affine, hn::Set(d, static_cast<double>(kAffine))),
                           hn::IfThenElseZero(maker.needs_double, hn::Set(d, static_cast<double>(kDouble))));
@@ -225,8 +237,8 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
 }
 
 // A cut triangle or line: its planes are those of the whole primitive, already there; always in double.
-HWY_INLINE void CopyPlanes(const Segment& segment, const CutTriangle& cut, const VertexLayout& layout, int lane,
-                           int32_t center_x, int32_t center_y, SetupBatch& out) {
+HWY_INLINE void CopyPlanes(const Segment& segment, const CutTriangle& cut, const VertexLayout& layout,
+                           int lane, int32_t center_x, int32_t center_y, SetupBatch& out) {
   const PlaneSource& source = segment.plane_sources.data()[cut.source];
   for (int p = 0; p < 2 + layout.attribute_count; ++p) {
     const bool color = layout.color >= 0 && p >= 2 + layout.color && p < 6 + layout.color;
@@ -240,23 +252,24 @@ HWY_INLINE void CopyPlanes(const Segment& segment, const CutTriangle& cut, const
   out.anchor_y[lane] = (center_y - source.y0) * (1.0 / kSubpixelScale);
 }
 
-HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, const PrimitiveRef& ref, int lane,
-                             SetupBatch& out) {
-  const uint32_t vertex = ref.cut
-                              ? segment.plane_sources.data()[segment.cut_triangles.data()[ref.v[0]].source].provoking
-                              : ref.v[ref.provoking];
+HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, const PrimitiveRef& ref,
+                             int lane, SetupBatch& out) {
+  const uint32_t vertex =
+      ref.cut ? segment.plane_sources.data()[segment.cut_triangles.data()[ref.v[0]].source].provoking
+              : ref.v[ref.provoking];
   const VertexLayout& layout = draw.vertices.layout;
   const int place = ref.back_facing && layout.back_color >= 0 ? layout.back_color : layout.color;
   const float* color = Attributes(Head(draw.vertices, layout.stride(), vertex)) + place;
   for (int k = 0; k < 4; ++k) {
     out.flat[k][lane] = color_level(color[k], draw.program->params.rounds_to_bytes);
-    out.exact_flat[k][lane] = static_cast<double>(color[k]) * 255.0;
+    const double rest = layout.low < 0 ? 0 : static_cast<double>(color[k + layout.low]);
+    out.exact_flat[k][lane] = (static_cast<double>(color[k]) + rest) * 255.0;
   }
 }
 
 // The draft level's lambda (spec 3.8.8) of a whole primitive: at the middle of its corners.
-HWY_INLINE float LambdaOf(const SetupInput& in, const FragmentParams& params, const VertexLayout& layout, int lane,
-                          int32_t center_x, int32_t center_y, const SetupBatch& s) {
+HWY_INLINE float LambdaOf(const SetupInput& in, const FragmentParams& params, const VertexLayout& layout,
+                          int lane, int32_t center_x, int32_t center_y, const SetupBatch& s) {
   constexpr double kThird = 1.0 / (3 * kSubpixelScale);
   const int64_t sum_x = int64_t{in.x[0][lane]} + in.x[1][lane] + in.x[2][lane] - 3 * int64_t{center_x};
   const int64_t sum_y = int64_t{in.y[0][lane]} + in.y[1][lane] + in.y[2][lane] - 3 * int64_t{center_y};
@@ -272,8 +285,10 @@ HWY_INLINE float LambdaOf(const SetupInput& in, const FragmentParams& params, co
   for (int axis = 0; axis < 2; ++axis) {
     const int p = first + axis;
     const double value = affine ? 0 : at(p) / q;
-    const double gx = (s.dfdx[p][lane] - (affine ? 0 : value * s.dfdx[divisor][lane])) / q * params.lod_scale[axis];
-    const double gy = (s.dfdy[p][lane] - (affine ? 0 : value * s.dfdy[divisor][lane])) / q * params.lod_scale[axis];
+    const double gx =
+        (s.dfdx[p][lane] - (affine ? 0 : value * s.dfdx[divisor][lane])) / q * params.lod_scale[axis];
+    const double gy =
+        (s.dfdy[p][lane] - (affine ? 0 : value * s.dfdy[divisor][lane])) / q * params.lod_scale[axis];
     x2 += gx * gx;
     y2 += gy * gy;
   }
@@ -288,10 +303,31 @@ HWY_INLINE void OffsetDepth(const PolygonState& polygon, int lane, SetupBatch& o
   out.f0[0][lane] += depth_offset(polygon, gx > gy ? gx : gy);
 }
 
-// Fills `out` for the primitives ids[0 .. count) of `segment`, all of one draw. `limit`: the draw's bounds relative to
-// the tile whose lowest pixel is (tile_x, tile_y).
-void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, int count, int tile_x, int tile_y,
-           const Rect& limit, SetupInput& in, SetupBatch& out) {
+// What the attributes' floats have left of doubles (VertexLayout::low).
+HWY_NOINLINE void AddLowParts(const Segment& segment, const ShadedVertices& vertices, const uint32_t* ids,
+                              int count, SetupInput& in) {
+  const VertexLayout& layout = vertices.layout;
+  for (int lane = 0; lane < count; ++lane) {
+    const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
+    if (ref.cut) continue;
+    const bool back = ref.back_facing && layout.back_color >= 0;
+    VertexHead made[3];
+    const VertexHead* v[3];
+    FindCorners(segment, vertices, layout.stride(), ref, made, v);
+    for (int k = 0; k < 3; ++k) {
+      int j = 0;  // the corner that has come to stand here
+      while (j < 2 && (v[j]->x != in.x[k][lane] || v[j]->y != in.y[k][lane])) ++j;
+      const float* attributes = Attributes(v[j] == &made[j] ? v[0] : v[j]);
+      for (int a = 0; a < layout.attribute_count; ++a)
+        in.attribute[a][k][lane] += static_cast<double>(attributes[layout.place(a, back) + layout.low]);
+    }
+  }
+}
+
+// Fills `out` for the primitives ids[0 .. count) of `segment`, all of one draw. `limit`: the draw's bounds
+// relative to the tile whose lowest pixel is (tile_x, tile_y).
+void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, int count, int tile_x,
+           int tile_y, const Rect& limit, SetupInput& in, SetupBatch& out) {
   const DD d;
   const VertexLayout& layout = draw.vertices.layout;
   const FragmentParams& params = draw.program->params;
@@ -306,6 +342,7 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
     any_cut |= ref.cut;
   }
   for (int i = 0; i < count; i += kDoubleLanes) SpreadCorners(quads, layout.attribute_count, i, in);
+  if (HWY_UNLIKELY(layout.low >= 0)) AddLowParts(segment, draw.vertices, ids, count, in);
   SetBox(in, center_x, center_y, limit, out);
   const VD cx = hn::Set(d, static_cast<double>(center_x)), cy = hn::Set(d, static_cast<double>(center_y));
   for (int i = 0; i < count; i += kDoubleLanes) {
@@ -326,7 +363,8 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
   if (!any_cut && !flat && !offset && !one_lambda) return;
   for (int lane = 0; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    if (ref.cut) CopyPlanes(segment, segment.cut_triangles.data()[ref.v[0]], layout, lane, center_x, center_y, out);
+    if (ref.cut)
+      CopyPlanes(segment, segment.cut_triangles.data()[ref.v[0]], layout, lane, center_x, center_y, out);
     if (flat) SetFlatColor(segment, draw, ref, lane, out);
     if (one_lambda) out.lambda[lane] = LambdaOf(in, params, layout, lane, center_x, center_y, out);
     if (offset && ref.kind <= PrimitiveKind::smooth_triangle) OffsetDepth(draw.state->polygon, lane, out);

@@ -111,6 +111,7 @@ VertexLayout choose_layout(const DrawState& state, const VertexBatch& batch) {
   }
   if (state.fog.enabled) layout.fog = layout.attribute_count++;
   if (layout.back_color >= 0) layout.back_color = layout.attribute_count;
+  if (state.accuracy.transform == Level::exact) layout.low = layout.float_count();
   return layout;
 }
 

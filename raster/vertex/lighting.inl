@@ -115,14 +115,14 @@ HWY_INLINE LightAt locate(const LightTerm& light, const ToLight& to, uint32_t i)
   return at;
 }
 
-HWY_INLINE FloatVec spot_factor(const LightTerm& light, const LightAt& at) {
+HWY_INLINE FloatVec spot_factor(const LightingJob& job, const LightTerm& light, const LightAt& at) {
   const Floats f;
   const FloatVec cosine =
       hn::Neg(dot(at.x, at.y, at.z, hn::Set(f, light.spot_direction[0]), hn::Set(f, light.spot_direction[1]),
                   hn::Set(f, light.spot_direction[2])));
   const FloatMask inside = hn::Ge(cosine, hn::Set(f, light.spot_cosine));
   if (light.spot_exponent == 0) return hn::IfThenElseZero(inside, hn::Set(f, 1.0f));
-  return hn::IfThenElseZero(inside, power_of(positive_part(cosine), hn::Set(f, light.spot_exponent)));
+  return hn::IfThenElseZero(inside, power_at(job.power, positive_part(cosine), hn::Set(f, light.spot_exponent)));
 }
 
 struct Viewer {
@@ -189,7 +189,7 @@ HWY_INLINE void add_specular(const LightingJob& job, const LightTerm& light, Flo
     half = hn::IfThenElse(lit, half, hn::Neg(half));
     shininess = hn::IfThenElse(lit, shininess, sides[1].shininess.get(0, i));
   }
-  const FloatVec shine = hn::Mul(weight, power_of(positive_part(half), shininess));
+  const FloatVec shine = hn::Mul(weight, power_at(job.power, positive_part(half), shininess));
   sums.specular[0].add(hn::IfThenElseZero(lit, shine), light.specular);
   if (job.two_sided) sums.specular[1].add(hn::IfThenElseZero(hn::Lt(cosine, zero), shine), light.specular);
 }
@@ -201,7 +201,7 @@ HWY_INLINE void add_light(const LightingJob& job, const LightTerm& light, const 
   const FloatVec nx = hn::Load(f, e.normal[0] + i), ny = hn::Load(f, e.normal[1] + i),
                  nz = hn::Load(f, e.normal[2] + i);
   FloatVec weight = at.weight;
-  if (light.spot) weight = hn::Mul(weight, spot_factor(light, at));
+  if (light.spot) weight = hn::Mul(weight, spot_factor(job, light, at));
   if (light.ambient_varies) sums.ambient.add(weight, light.ambient);
   const FloatVec cosine = dot(nx, ny, nz, at.x, at.y, at.z);
   sums.diffuse[0].add(hn::Mul(weight, positive_part(cosine)), light.diffuse);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "raster/api/accuracy.h"
 #include "raster/api/lighting.h"
 
 namespace halfspace::raster {
@@ -37,6 +38,7 @@ struct LightingJob {
   bool specular;   // some light and some material have a specular colour
   bool needs_eye;  // the vertices' eye coordinates
   bool tracks_color;
+  Level power;  // of cosines
   MaterialTerms material[2];  // front, back
   LightingState::ColorMaterial tracked[2];
   const MaterialPair* materials;  // null: `material` for all

@@ -35,11 +35,13 @@ struct VertexLayout {
   int fog = -1;            // 1 float: distance from the eye, |z_e|
   // Behind the attributes, and none of them: 4 floats, which back-facing polygons have in place of `color`.
   int back_color = -1;
+  // Floats from each of these to what it leaves of a double; at the exact level of the transform axis only.
+  int low = -1;
   bool coverage = false;   // fragments may cover their pixel in part: points, lines or polygons are smooth
   Color constant_color{1, 1, 1, 1};  // used (already clamped) when color == -1
   // Pixel rectangles: each fragment brings its own colour, and its own depth.
   bool given_color = false, given_depth = false;
-  size_t stride() const { return sizeof(VertexHead) + ((size_t(float_count()) * 4 + 7) & ~size_t{7}); }
+  size_t stride() const { return sizeof(VertexHead) + ((size_t(float_count() * (low >= 0 ? 2 : 1)) * 4 + 7) & ~size_t{7}); }
   // Which float is attribute `a`, on a front- or back-facing polygon.
   int place(int a, bool back) const {
     return back && back_color >= 0 && a >= color && a < color + 4 ? back_color + a - color : a;
@@ -75,6 +77,11 @@ struct ShadedVertices {
   }
   const float* attributes(uint32_t i) const {
     return reinterpret_cast<const float*>(records + i * layout.stride() + sizeof(VertexHead));
+  }
+  // The float at `place`, and what it leaves.
+  double attribute(uint32_t i, int place) const {
+    const float* a = attributes(i);
+    return layout.low < 0 ? double(a[place]) : double(a[place]) + double(a[place + layout.low]);
   }
 };
 

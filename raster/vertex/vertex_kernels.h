@@ -69,7 +69,7 @@ inline constexpr float kMaxTexCoord = 1e30f;
 
 struct VertexKernels {
   void (*shade)(const ShadeJob& job, uint32_t first, uint32_t count);
-  void (*power)(const float* x, const float* s, float* out, size_t count);
+  void (*power)(const float* x, const float* s, float* out, size_t count, Level level);
 };
 
 }  // namespace halfspace::raster

@@ -9,6 +9,7 @@
 
 #include "raster/isa.h"
 #include "raster/vertex/effect_columns.h"
+#include "raster/vertex/exact_attributes.h"
 #include "raster/vertex/lighting.h"
 #include "raster/vertex/vertex_kernels.h"
 #include "raster/vertex/window_transform.h"
@@ -196,6 +197,7 @@ inline constexpr float kDefaults[4] = {0, 0, 0, 1};  // of a position's, colour'
 // Each uses what stands in those before it.
 // clang-format off
 #include "raster/vertex/streams.inl"
+#include "raster/exact_math.inl"
 #include "raster/vertex/power.inl"
 #include "raster/vertex/lighting.inl"
 #include "raster/vertex/eye_space.inl"
@@ -376,6 +378,7 @@ void prepare_effects(const DrawState& state, const VertexBatch& batch,
   if (state.lighting.enabled && layout.color >= 0) {
     lighting =
         make_lighting_job(state.lighting, batch.material_index ? materials : std::span<const MaterialPair>());
+    lighting.power = state.accuracy.power;
     job.lighting = &lighting;
     job.material_index = batch.material_index;
     job.needs_eye |= lighting.needs_eye;
@@ -423,6 +426,9 @@ void run_job(const DrawState& state, const VertexBatch& batch, std::span<const M
     prepare_effects(state, batch, materials, target.layout, job, lighting);
   }
   vertex_kernels().shade(job, first, count);
+  if (state.accuracy.transform != Level::exact) return;
+  shade_exactly(state, batch, materials, target.layout, tex_coord_count, first, count,
+                static_cast<std::byte*>(target.records));
 }
 
 // A record of all there is.
@@ -466,8 +472,8 @@ void shade_attributes(const DrawState& state, const VertexBatch& batch, std::spa
   }
 }
 
-void power(const float* x, const float* s, float* out, size_t count) {
-  vertex_kernels().power(x, s, out, count);
+void power(const float* x, const float* s, float* out, size_t count, Level level) {
+  vertex_kernels().power(x, s, out, count, level);
 }
 
 }  // namespace halfspace::raster

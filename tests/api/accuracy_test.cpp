@@ -116,7 +116,6 @@ TEST(AccuracyPictures, FastestIsDraftNicestIsExactAndDontCareIsTheContexts) {
     const auto hinted = [&, h = hint](GLenum mode) { return [=] { glHint(h, mode); }; };
     const auto draft = picture((name + "=draft").c_str(), kNothing),
                exact = picture((name + "=exact").c_str(), kNothing);
-    EXPECT_NE(draft, standard) << name;
     EXPECT_EQ(picture("standard", hinted(GL_FASTEST)), draft) << name;
     EXPECT_EQ(picture("standard", hinted(GL_NICEST)), exact) << name;
     EXPECT_EQ(picture("standard", hinted(GL_DONT_CARE)), standard) << name;

@@ -241,6 +241,34 @@ TEST(Lighting, IsTheSpecsFormula) {
   EXPECT_GT(lit, compared / 3);
 }
 
+// At the exact level a vertex keeps what a float loses.
+TEST(Lighting, ExactIsTheSpecsFormulaInDouble) {
+  const uint64_t seeds = long_tests() ? 5000 : 300;
+  size_t compared = 0;
+  for (uint64_t seed = 0; seed < seeds; ++seed) {
+    Scenario s = random_scenario(seed);
+    s.state.accuracy = Accuracy::all(Level::exact);
+    const Shaded shaded = shade(s);
+    const VertexLayout& layout = shaded.out.layout;
+    for (uint32_t i = 0; i < kVertices; ++i) {
+      const oracle::LitVertex expected = truth(s, i);
+      if (expected.margin < 1e-5L) continue;
+      const Color& c = layout.constant_color;
+      const float constant[4] = {c.r, c.g, c.b, c.a};
+      for (int k = 0; k < 4; ++k) {
+        const auto front = (long double)(layout.color < 0 ? double(constant[k]) : shaded.out.attribute(i, layout.color + k));
+        // A colour that no vertex changes is a float.
+        ASSERT_NEAR(double(front - expected.front[size_t(k)]), 0, layout.color < 0 ? 0x1p-24 : 1e-11) << seed << ", " << i;
+        if (layout.back_color < 0) continue;
+        const auto back = (long double)(shaded.out.attribute(i, layout.back_color + k));
+        ASSERT_NEAR(double(back - expected.back[size_t(k)]), 0, 1e-11) << seed << ", " << i;
+      }
+      compared += layout.color >= 0;
+    }
+  }
+  EXPECT_GT(compared, seeds * kVertices / 2);
+}
+
 // However far a light is: with w = 0 it is not attenuated, with any other w it is.
 TEST(Lighting, FarLightsAreAttenuated) {
   size_t lit = 0;

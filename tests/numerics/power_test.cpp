@@ -19,9 +19,9 @@ using Exact = boost::multiprecision::number<boost::multiprecision::mpfr_float_ba
 struct Cases {
   std::vector<float> x, s;
   void add(float base, float exponent) { x.push_back(base), s.push_back(exponent); }
-  std::vector<float> computed() const {
+  std::vector<float> computed(raster::Level level = raster::Level::standard) const {
     std::vector<float> out(x.size());
-    raster::power(x.data(), s.data(), out.data(), x.size());
+    raster::power(x.data(), s.data(), out.data(), x.size(), level);
     return out;
   }
 };
@@ -52,6 +52,22 @@ TEST(Power, RelativeErrorIsAtMostTenToTheMinusFive) {
     ASSERT_LE(error, 1e-5) << all.x[i] << " ^ " << all.s[i];
   }
   std::cout << "largest relative error " << worst << "\n";
+}
+
+TEST(Power, DraftIsWithinAThousandthAndExactWithinAnUlp) {
+  const Cases all = cases(long_tests() ? 500000 : 50000);
+  for (const auto& [level, most] :
+       {std::pair(raster::Level::draft, 1e-3), {raster::Level::exact, 0x1p-24 + 1e-12}}) {
+    const std::vector<float> out = all.computed(level);
+    double worst = 0;
+    for (size_t i = 0; i < out.size(); ++i) {
+      const Exact truth = pow(Exact(all.x[i]), Exact(all.s[i]));
+      if (truth < std::ldexp(1.0, -125) || truth > std::ldexp(1.0, 64)) continue;
+      worst = std::max(worst, abs((Exact(out[i]) - truth) / truth).convert_to<double>());
+    }
+    EXPECT_LE(worst, most) << int(level);
+    EXPECT_GT(worst, most / 20) << int(level);
+  }
 }
 
 TEST(Power, EdgesAreDefined) {
