@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "compare/bench_cores.h"
 #include "compare/bench_limits.h"
 #include "compare/bench_scale.h"
 #include "compare/bench_scenes.h"
@@ -107,6 +108,23 @@ void add_scale_command(CLI::App& bench_app, int& status) {
   command->callback([options, &status] { status = scale_it(*options); });
 }
 
+void add_cores_command(CLI::App& bench_app, int& status) {
+  auto options = std::make_shared<CoresOptions>();
+  CLI::App* command =
+      bench_app.add_subcommand("cores", "What more cores would do, simulated from a record of tasks");
+  command->add_option("--only", options->only, "These workloads, with commas between them")->delimiter(',');
+  command->add_option("--cores", options->cores, "Numbers of cores")->delimiter(',')->capture_default_str();
+  command->add_option("--frames", options->frames, "Frames recorded")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--wake", options->wake_us, "Microseconds until a helper begins")
+      ->capture_default_str();
+  add_library_and_out(*command, options->library, options->out);
+  command->callback([options, &status] {
+    status = or_complain([&] { return report(bench_cores(*options, tell), options->out, "cores"); });
+  });
+}
+
 int bench_the_workloads(const WorkloadOptions& options) {
   return or_complain([&] {
     return report(bench_workloads(options, tell), options.out, options.against ? "against" : "workloads");
@@ -146,6 +164,7 @@ void add_bench_command(CLI::App& app, int& status) {
   add_scenes_command(*command, status);
   add_limits_command(*command, status);
   add_scale_command(*command, status);
+  add_cores_command(*command, status);
   command->callback([command, options, &status] {
     if (command->get_subcommands().empty()) status = bench_the_workloads(*options);
   });

@@ -29,7 +29,8 @@ class ScaleBench {
 
   ScalePoint measure(const std::string& scale, int amount, ScaleResult& result) {
     const std::vector<int> core{core_to_use(options_.core)};
-    const auto ours = start_halfspace({options_.library}, core), theirs = start_mesa(false, core);
+    const auto ours = start_halfspace(HalfspaceSetting{options_.library}, core),
+               theirs = start_mesa(false, core);
     const std::string order = "scale " + scale + " " + std::to_string(amount);
     result.ours = require_halfspace(ours->order(order));
     result.theirs = require_mesa(theirs->order(order));
@@ -57,7 +58,7 @@ ScaleResult bench_scale(const ScaleOptions& options,
   ScaleResult result;
   result.processor = processor_name();
   ScaleBench bench(options);
-  const Json list = start_halfspace({options.library}, {})->order("list");
+  const Json list = start_halfspace(HalfspaceSetting{options.library}, {})->order("list");
   for (const Json& entry : list.at("scales")) {
     ScaleCurve curve{entry.at("name"), entry.at("what"), {}};
     if (!is_chosen(options, curve.name)) continue;

@@ -27,7 +27,7 @@ struct Workload {
 
 // The program knows them; it is asked without drawing anything.
 std::vector<Workload> workloads(const WorkloadOptions& options) {
-  const Json list = start_halfspace({options.library}, {})->order("list");
+  const Json list = start_halfspace(HalfspaceSetting{options.library}, {})->order("list");
   std::vector<Workload> chosen;
   for (const Json& entry : list.at("workloads")) {
     const Workload workload{entry.at("name"), entry.at("what"), entry.at("target"), false, entry.at("work")};
@@ -71,7 +71,7 @@ class Bench {
     row.draft = workload.draft;
     // What has been measured before shall leave nothing behind, memory above all.
     const std::vector<int> core{core_to_use(options_.core)};
-    const auto ours = start_halfspace({options_.library, 1, workload.draft}, core);
+    const auto ours = start_halfspace(HalfspaceSetting{options_.library, 1, workload.draft}, core);
     const auto theirs = options_.against ? start_other_build(*options_.against, workload.draft, core)
                                          : start_mesa(options_.softpipe, core);
     open(workload, *ours, *theirs);
@@ -115,8 +115,8 @@ class Bench {
     const std::vector<int> cores = available_cores();
     if (cores.size() < 2) return;
     const std::vector<int> two(cores.end() - 2, cores.end());
-    const auto with_one = start_halfspace({options_.library, 1, row.draft}, two);
-    const auto with_two = start_halfspace({options_.library, 2, row.draft}, two);
+    const auto with_one = start_halfspace(HalfspaceSetting{options_.library, 1, row.draft}, two);
+    const auto with_two = start_halfspace(HalfspaceSetting{options_.library, 2, row.draft}, two);
     with_one->order("open " + row.name);
     with_two->order("open " + row.name);
     const Turns times = take_turns(*with_one, *with_two, options_.rounds);

@@ -66,8 +66,10 @@ Json Contestant::order(const std::string& line) {
 }
 
 std::unique_ptr<Contestant> start_halfspace(const HalfspaceSetting& setting, const std::vector<int>& cores) {
+  std::vector<EnvironmentVariable> environment = our_environment(setting.threads, setting.draft);
+  environment.emplace_back("HALFSPACE_TRACE", setting.trace);
   return std::make_unique<Contestant>((library_folder(kLibrary, setting.folder) / kLibrary).string(),
-                                      our_environment(setting.threads, setting.draft), cores);
+                                      environment, cores);
 }
 
 std::unique_ptr<Contestant> start_other_build(const std::string& place, bool draft,

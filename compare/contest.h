@@ -26,9 +26,10 @@ class Contestant {
 };
 
 struct HalfspaceSetting {
-  std::optional<std::string> folder;  // of libOSMesa.so.8; the one that belongs to this command without
+  std::optional<std::string> folder{};  // of libOSMesa.so.8; the one that belongs to this command without
   int threads = 1;
   bool draft = false;
+  std::string trace{};  // file for HALFSPACE_TRACE; none when empty
 };
 std::unique_ptr<Contestant> start_halfspace(const HalfspaceSetting& setting, const std::vector<int>& cores);
 

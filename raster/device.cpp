@@ -375,6 +375,7 @@ void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
   if (target == nullptr) return;
   if (image != nullptr || !filling->empty()) hand_over(image, plane);
   settle();
+  if (image != nullptr) pool.note_picture();
   if (meters) report_stages(image);
 }
 

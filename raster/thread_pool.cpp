@@ -24,13 +24,14 @@ uint64_t packed(uint32_t begin, uint32_t end) { return uint64_t{end} << 32 | beg
 TaskLoop::TaskLoop(int workers)
     : workers_(static_cast<size_t>(workers)), stretches_(std::make_unique<Stretch[]>(workers_)) {}
 
-void TaskLoop::open(std::span<const uint32_t> ends, const Task* task) {
+void TaskLoop::open(std::span<const uint32_t> ends, const Task* task, uint64_t* times) {
   uint32_t begin = 0;
   for (size_t worker = 0; worker < workers_; ++worker) {
     stretches_[worker].range.store(packed(begin, ends[worker]), std::memory_order_relaxed);
     begin = ends[worker];
   }
   task_ = task;
+  times_ = times;
   open_.store(true);
 }
 
@@ -65,12 +66,14 @@ bool TaskLoop::take(int worker, uint32_t& task) {
 }
 
 void TaskLoop::do_task(uint32_t task, int worker) {
+  const uint64_t start = times_ != nullptr ? thread_nanoseconds() : 0;
   try {
     (*task_)(task, worker);
   } catch (...) {
     const std::lock_guard lock(error_mutex_);
     if (!error_) error_ = std::current_exception();
   }
+  if (times_ != nullptr) times_[task] = thread_nanoseconds() - start;
 }
 
 // Whoever finds the loop open was counted before it looked, so that close() knows of it: of its own write and
@@ -106,7 +109,8 @@ void TaskLoop::close() {
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
-ThreadPool::ThreadPool(int threads) : size_(threads < 1 ? 1 : threads), front_(size_), back_(size_) {}
+ThreadPool::ThreadPool(int threads)
+    : size_(threads < 1 ? 1 : threads), front_(size_), back_(size_), trace_(TaskTrace::create(size_)) {}
 
 ThreadPool::~ThreadPool() {
   try {
@@ -170,10 +174,11 @@ void ThreadPool::run(uint32_t count, const Task& task) {
     even_ends_[static_cast<size_t>(worker)] =
         static_cast<uint32_t>(count * parts / static_cast<uint64_t>(size_));
   }
-  front_.open(even_ends_, &task);
+  front_.open(even_ends_, &task, trace_ ? trace_->begin_front(count) : nullptr);
   wake();
   front_.help(0);
   front_.close();
+  if (trace_) trace_->end_front();
 }
 
 void ThreadPool::start(std::span<const uint32_t> ends, Task task) {
@@ -183,7 +188,7 @@ void ThreadPool::start(std::span<const uint32_t> ends, Task task) {
     for (uint32_t i = 0; i < ends[0]; ++i) back_task_(i, 0);
     return;
   }
-  back_.open(ends, &back_task_);
+  back_.open(ends, &back_task_, trace_ ? trace_->begin_back(ends.back()) : nullptr);
   busy_ = true;
   wake();
 }
@@ -191,8 +196,14 @@ void ThreadPool::start(std::span<const uint32_t> ends, Task task) {
 void ThreadPool::wait() {
   if (!busy_) return;
   busy_ = false;
+  if (trace_) trace_->begin_wait();
   back_.help(0);
   back_.close();
+  if (trace_) trace_->end_wait();
+}
+
+void ThreadPool::note_picture() {
+  if (trace_) trace_->picture();
 }
 
 }  // namespace halfspace::raster

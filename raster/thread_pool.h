@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "raster/task_trace.h"
+
 namespace halfspace::raster {
 
 // Tasks [0, count) dealt to the workers in stretches. A worker takes its own from the front, so that the same
@@ -22,8 +24,9 @@ class TaskLoop {
   using Task = std::function<void(uint32_t task, int worker)>;
   explicit TaskLoop(int workers);
 
-  // ends: where each worker's stretch ends; the first begins at 0. Nobody may be inside.
-  void open(std::span<const uint32_t> ends, const Task* task);
+  // ends: where each worker's stretch ends; the first begins at 0. Nobody may be inside. times: of each task,
+  // when that is to be noted.
+  void open(std::span<const uint32_t> ends, const Task* task, uint64_t* times = nullptr);
   // Takes tasks until none is left; those of `first`, if it has any, before each. What a task throws is kept
   // for close(). Any thread, any time.
   void help(int worker, TaskLoop* first = nullptr);
@@ -43,6 +46,7 @@ class TaskLoop {
   const size_t workers_;
   std::unique_ptr<Stretch[]> stretches_;
   const Task* task_ = nullptr;
+  uint64_t* times_ = nullptr;
   std::atomic<bool> open_{false};
   std::atomic<int> inside_{0};  // threads that are looking for tasks or doing one
   std::mutex error_mutex_;
@@ -68,6 +72,8 @@ class ThreadPool {
   void start(std::span<const uint32_t> ends, Task task);
   // Helps with what start() began, and returns when it is done. Throws the first exception of a task.
   void wait();
+  // Notes in the trace, if there is one, that a picture is finished.
+  void note_picture();
   // Whether tasks of that loop still wait for somebody.
   bool is_busy() const { return busy_ && back_.has_tasks(); }
 
@@ -79,6 +85,7 @@ class ThreadPool {
   const int size_;
   std::vector<std::thread> threads_;
   TaskLoop front_, back_;  // of run() and of start()
+  std::unique_ptr<TaskTrace> trace_;
   Task back_task_;
   bool busy_ = false;
   std::vector<uint32_t> even_ends_;

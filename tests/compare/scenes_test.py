@@ -113,6 +113,15 @@ class Scenes(unittest.TestCase):
             self.assertGreater(pixels[3][who]["cpu_ms"], 4 * pixels[0][who]["cpu_ms"])
         self.assertTrue((self.out / "scale_pixels.svg").read_text().startswith("<svg "))
 
+    def test_cores(self):
+        done = run("bench", "cores", "--only", "tri_1000px", "--cores", "1,2,16", "--frames", 2, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        row = json.loads((self.out / "cores.json").read_text())["workloads"][0]
+        # Triangles of that size are shared by tiles; that much any schedule has to find.
+        self.assertLess(row["frame_ms"][2], row["frame_ms"][1])
+        self.assertLess(row["frame_ms"][1], row["frame_ms"][0])
+        self.assertGreater(row["frame_ms"][1], row["work_ms"][1] / 2.001)
+
     def test_two_builds(self):
         """A build against itself: the same pictures to the bit. A folder without a library is an error."""
         library = pathlib.Path(HALFSPACE).parent.parent
