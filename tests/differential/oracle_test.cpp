@@ -449,6 +449,31 @@ TEST_F(Oracle, CoverageOfCornersAsTheyAre) {
   }
 }
 
+// The window cuts a corner off this triangle's square: five corners are left, and their area.
+TEST_F(Oracle, FeedbackReportsWhatClippingLeaves) {
+  open(8, 8);
+  float values[64] = {};
+  glFeedbackBuffer(64, GL_3D_COLOR, values);
+  glRenderMode(GL_FEEDBACK);
+  glBegin(GL_TRIANGLES);
+  glColor3d(0, 0.5, 1);
+  glVertex3d(0, 0, 0.5), glVertex3d(12, 0, 0.5), glVertex3d(0, 12, 0.5);
+  glVertex3d(9, 9, 0), glVertex3d(12, 9, 0), glVertex3d(9, 12, 0);  // outside
+  glEnd();
+  ASSERT_EQ(glRenderMode(GL_RENDER), 2 + 5 * 7);
+  EXPECT_EQ(values[0], static_cast<float>(GL_POLYGON_TOKEN));
+  ASSERT_EQ(values[1], 5);
+  double twice_area = 0;
+  for (int i = 0; i < 5; ++i) {
+    const float *a = values + 2 + 7 * i, *b = values + 2 + 7 * ((i + 1) % 5);
+    twice_area += static_cast<double>(a[0]) * static_cast<double>(b[1]) -
+                  static_cast<double>(b[0]) * static_cast<double>(a[1]);
+    EXPECT_FLOAT_EQ(a[2], 0.75f);
+    EXPECT_FLOAT_EQ(a[4], 0.5f);
+  }
+  EXPECT_NEAR(twice_area / 2, 64 - 4 * 4 / 2.0, 1e-5);
+}
+
 TEST_F(Oracle, OwnersAreNumbersOfPrimitives) {
   open(8, 2);
   glBegin(GL_TRIANGLE_STRIP);  // 1, 2

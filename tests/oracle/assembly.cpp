@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "tests/oracle/area.h"
+#include "tests/oracle/primitives.h"
 
 namespace halfspace::oracle {
 namespace {
 
 using raster::PolygonMode;
-using raster::Primitive;
 
 constexpr Real kLeastCoverage = 1e-6L;  // less is rounding's work
 
@@ -38,15 +38,16 @@ Assembly::Assembly(Painter& painter, const raster::DrawPacket& packet, Positions
       vertices_(packet.batch.count) {}
 
 void Assembly::run() {
-  switch (packet_.primitive) {
-    case Primitive::points:
-      return points();
-    case Primitive::lines:
-    case Primitive::line_strip:
-    case Primitive::line_loop:
-      return lines();
-    default:
-      return polygons();
+  if (!packet_.continues) progress_.stipple = 0;
+  bool first = true;
+  for (const GivenPrimitive& given : primitives_of(packet_.primitive, packet_.index_count)) {
+    if (given.places.size() == 1)
+      given_point(given);
+    else if (given.places.size() == 2)
+      given_line(given, first);
+    else
+      polygon(given.places, given.provoking, given.flagged);
+    first = false;
   }
 }
 
@@ -80,55 +81,18 @@ bool Assembly::start(std::span<const uint32_t> places) {
   return usable && !volume_.rejects(corners.data(), corners.size());
 }
 
-void Assembly::points() {
-  for (uint32_t i = 0; i < packet_.index_count; ++i) {
-    if (start(std::array{i}) && volume_.holds(vertex(i).corner)) point(corner(vertex(i), {}), {});
-  }
+void Assembly::given_point(const GivenPrimitive& given) {
+  const Vertex& v = vertex(given.places[0]);
+  if (start(given.places) && volume_.holds(v.corner)) point(corner(v, {}), {});
 }
 
-// Spec 2.6.1. The stipple starts anew for each separate line, and runs on along strips and loops
-// (spec 3.4.2.2).
-void Assembly::lines() {
-  const uint32_t n = packet_.index_count;
-  const bool separate = packet_.primitive == Primitive::lines;
-  if (!packet_.continues) progress_.stipple = 0;
-  const auto draw = [&](uint32_t from, uint32_t to) {
-    if (separate) progress_.stipple = 0;
-    const Side side{false, 0, &vertex(to)};
-    if (start(std::array{from, to})) line(corner(vertex(from), side), corner(vertex(to), side), side);
-  };
-  if (n < 2) return;
-  for (uint32_t i = 0; i + 1 < n; i += separate ? 2 : 1) draw(i, i + 1);
-  if (packet_.primitive == Primitive::line_loop) draw(n - 1, 0);
-}
-
-// Spec 2.6.1, and table 2.12 for the vertex that gives the flat colour: the last of a primitive, a polygon's
-// first. Edge flags count where polygons stand alone (spec 2.6.2).
-void Assembly::polygons() {
-  const uint32_t n = packet_.index_count;
-  switch (packet_.primitive) {
-    case Primitive::triangles:
-      for (uint32_t i = 0; i + 2 < n; i += 3) polygon({i, i + 1, i + 2}, 2, true);
-      return;
-    case Primitive::triangle_strip:
-      for (uint32_t i = 0; i + 2 < n; ++i)
-        polygon(i % 2 == 0 ? Face{i, i + 1, i + 2} : Face{i + 1, i, i + 2}, 2, false);
-      return;
-    case Primitive::triangle_fan:
-      for (uint32_t i = 1; i + 1 < n; ++i) polygon({0, i, i + 1}, 2, false);
-      return;
-    case Primitive::quads:
-      for (uint32_t i = 0; i + 3 < n; i += 4) polygon({i, i + 1, i + 2, i + 3}, 3, true);
-      return;
-    case Primitive::quad_strip:
-      for (uint32_t i = 0; i + 3 < n; i += 2) polygon({i, i + 1, i + 3, i + 2}, 2, false);
-      return;
-    default:
-      break;
-  }
-  Face face;
-  for (uint32_t i = 0; i < n; ++i) face.push_back(i);
-  if (n >= 3) polygon(face, 0, true);
+// The stipple starts anew for each separate line, and runs on along strips and loops (spec 3.4.2.2), also
+// from draw to draw.
+void Assembly::given_line(const GivenPrimitive& given, bool first) {
+  if (given.restarts && !(first && packet_.continues)) progress_.stipple = 0;
+  const Side side{false, 0, &vertex(given.places[given.provoking])};
+  if (start(given.places))
+    line(corner(vertex(given.places[0]), side), corner(vertex(given.places[1]), side), side);
 }
 
 // A polygon is drawn as the triangles of a fan around its provoking vertex (the house's choice: spec 3.5.1

@@ -7,6 +7,7 @@
 
 #include "tests/oracle/clip.h"
 #include "tests/oracle/painter.h"
+#include "tests/oracle/primitives.h"
 #include "tests/oracle/vertex.h"
 
 namespace halfspace::oracle {
@@ -36,9 +37,8 @@ class Assembly {
   Corner corner(const Vertex& v, const Side& side) const;
   bool start(std::span<const uint32_t> places);
 
-  void points();
-  void lines();
-  void polygons();
+  void given_point(const GivenPrimitive& given);
+  void given_line(const GivenPrimitive& given, bool first);
   void polygon(const Face& face, uint32_t provoking, bool flagged);
   std::optional<Side> measure(const Face& face, uint32_t provoking);
   void fill(const std::array<uint32_t, 3>& places, uint32_t provoking, const Side* side);

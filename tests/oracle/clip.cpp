@@ -119,6 +119,11 @@ Polygon ClipVolume::cut_outline(const Polygon& polygon, bool at_view_volume) con
   return left;
 }
 
+Polygon ClipVolume::cut_whole(const Polygon& polygon) const {
+  const Polygon left = cut_outline(polygon, true);
+  return left.size() < 3 ? Polygon() : left;
+}
+
 bool ClipVolume::cut(Corner (&ends)[2], bool sides) const {
   const auto cut_by = [&](int plane) {
     const Wide d[2] = {distance(ends[0], plane), distance(ends[1], plane)};

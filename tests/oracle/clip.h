@@ -32,6 +32,8 @@ class ClipVolume {
   Polygon cut_outline(const Polygon& polygon, bool at_view_volume) const;
   // A line; false: nothing is left. `sides`: at the four sides of the view volume, too.
   bool cut(Corner (&ends)[2], bool sides) const;
+  // A polygon as feedback reports it: cut at all six sides and by the user's planes.
+  Polygon cut_whole(const Polygon& polygon) const;
   // A point is in or out.
   bool holds(const Corner& corner) const;
 

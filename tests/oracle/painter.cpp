@@ -14,7 +14,7 @@ constexpr Real kAlphaDoubt = 0.02L / 255;
 
 Rgba wide_color(const raster::Color& c) { return {real(c.r), real(c.g), real(c.b), real(c.a)}; }
 
-uint32_t step_of(Real depth) { return static_cast<uint32_t>(std::floor(depth + 0.5L)); }
+uint32_t step_of(Real depth) { return static_cast<uint32_t>(depth + 0.5L); }
 
 uint8_t changed(StencilOp op, uint8_t old, uint8_t reference) {
   switch (op) {
@@ -49,7 +49,8 @@ raster::Rect Painter::bounds() const {
 // Ownership and scissor have been looked after. The colour is worked out early only where the alpha test asks
 // for it.
 void Painter::paint(int px, int py, const Surface& surface, Real coverage, const Given& given) {
-  Pixel pixel{target_.at(px, py), given.depth ? real(*given.depth) : surface.depth(px, py), doubtful_};
+  Pixel pixel{target_.at(px, py), 0, doubtful_};
+  if (state_.depth.test) pixel.depth = given.depth ? real(*given.depth) : surface.depth(px, py);
   Rgba color;
   if (state_.alpha_test.enabled) {
     color = shade(px, py, surface, coverage, given, &pixel.doubtful);

@@ -55,8 +55,6 @@ struct Target {
 inline int place_of_plane(raster::ColorPlane plane) { return plane == raster::kFrontPlane ? 1 : 0; }
 
 // Nearest of 0 .. 255.
-inline uint8_t byte_of(Real level) {
-  return static_cast<uint8_t>(std::floor(held(level, 0.0L, 255.0L) + 0.5L));
-}
+inline uint8_t byte_of(Real level) { return static_cast<uint8_t>(held(level, 0.0L, 255.0L) + 0.5L); }
 
 }  // namespace halfspace::oracle

@@ -14,6 +14,7 @@
 #include "tests/oracle/buffers.h"
 #include "tests/oracle/contract/image.h"
 #include "tests/oracle/contract/impl.h"
+#include "tests/oracle/feedback.h"
 #include "tests/oracle/pixels.h"
 #include "tests/oracle/truth_file.h"
 
@@ -198,12 +199,8 @@ ShadedPoint Device::shade_point(const DrawState& state, const VertexBatch& batch
   return point;
 }
 
-// Selection and feedback draw nothing: there is no truth of theirs to be seen here.
-void Device::feedback(const DrawPacket&, FeedbackSink&) {
-  static bool told = false;
-  if (!told)
-    std::fprintf(stderr, "halfspace oracle: selection and feedback are not here; their buffers stay empty\n");
-  told = true;
+void Device::feedback(const DrawPacket& packet, FeedbackSink& sink) {
+  if (packet.batch.count != 0) oracle::feed_back(packet, sink);
 }
 
 std::string_view isa_name() { return "oracle"; }
