@@ -34,6 +34,43 @@ HWY_INLINE hn::Vec<DIq> GatherPixels(const int32_t* memory, const int32_t* offse
 #endif
 }
 
+// Moves the lanes of a mask to the front. Highway's Compress does; but its tables for AVX2 are local, and g++ copies the
+// whole kilobyte to the stack at each use.
+#if HWY_TARGET == HWY_AVX2
+struct SqueezeTable {
+  uint32_t lanes[256];  // of each mask: the lanes set in it, from the lowest on, four bits each
+};
+inline constexpr SqueezeTable kSqueezeTable = [] {
+  SqueezeTable table{};
+  for (uint32_t mask = 0; mask < 256; ++mask)
+    for (uint32_t lane = 0, place = 0; lane < 8; ++lane)
+      if ((mask >> lane & 1) != 0) table.lanes[mask] |= lane << (4 * place++);
+  return table;
+}();
+
+struct Squeeze {
+  __m256i order;
+  HWY_INLINE explicit Squeeze(hn::Mask<DIq> keep) {
+    const auto bits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(keep.raw)));
+    const __m256i shifts = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28);
+    order = _mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(kSqueezeTable.lanes[bits])), shifts);
+  }
+  HWY_INLINE hn::Vec<DFq> operator()(hn::Vec<DFq> v) const {
+    return hn::Vec<DFq>{_mm256_permutevar8x32_ps(v.raw, order)};
+  }
+  HWY_INLINE hn::Vec<DIq> operator()(hn::Vec<DIq> v) const {
+    return hn::Vec<DIq>{_mm256_permutevar8x32_epi32(v.raw, order)};
+  }
+};
+#else
+struct Squeeze {
+  hn::Mask<DIq> keep;
+  HWY_INLINE explicit Squeeze(hn::Mask<DIq> lanes) : keep(lanes) {}
+  HWY_INLINE hn::Vec<DFq> operator()(hn::Vec<DFq> v) const { return hn::Compress(v, hn::RebindMask(DFq(), keep)); }
+  HWY_INLINE hn::Vec<DIq> operator()(hn::Vec<DIq> v) const { return hn::Compress(v, keep); }
+};
+#endif
+
 struct QueuedDoubles {
   VD part[kQueueParts];
 };
@@ -152,14 +189,14 @@ struct Packer {
     if (depth != nullptr) live = DepthTest(s, lane, px, py, offset, live, program.depth, depth);
     const auto dx = hn::Add(hn::ConvertTo(df, px), hn::Set(df, static_cast<float>(s.anchor_x[lane])));
     const auto dy = hn::Add(hn::ConvertTo(df, py), hn::Set(df, static_cast<float>(s.anchor_y[lane])));
-    const auto keep = hn::RebindMask(df, live);
+    const Squeeze squeeze(live);
     for (int p = 1; p < plane_count; ++p) {
       const auto row = hn::Add(hn::Set(df, s.f0_f[p][lane]), hn::Mul(hn::Set(df, s.dfdy_f[p][lane]), dy));
       const auto value = hn::Add(row, hn::Mul(hn::Set(df, s.dfdx_f[p][lane]), dx));
-      hn::StoreU(hn::Compress(value, keep), df, queue.plane[p] + queue.count);
+      hn::StoreU(squeeze(value), df, queue.plane[p] + queue.count);
     }
     // Not CompressStore: to memory, that instruction takes a hundred cycles on Zen 4.
-    hn::StoreU(hn::Compress(offset, live), di, queue.offset + queue.count);
+    hn::StoreU(squeeze(offset), di, queue.offset + queue.count);
     queue.count += static_cast<int>(hn::CountTrue(di, live));
   }
 
