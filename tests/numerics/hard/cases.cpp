@@ -4,7 +4,7 @@ namespace halfspace::hard {
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> list = {
-#define HARD_CASE(function, level, hazard) {#function, #level, hazard, function},
+#define HARD_CASE(function, level, hazard, claim) {#function, #level, hazard, claim, function},
 #include "cases.def"
 #undef HARD_CASE
   };

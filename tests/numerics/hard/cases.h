@@ -5,7 +5,7 @@
 
 namespace halfspace::hard {
 
-#define HARD_CASE(function, level, hazard) void function(Stage& stage);
+#define HARD_CASE(function, level, hazard, claim) void function(Stage& stage);
 #include "cases.def"
 #undef HARD_CASE
 

@@ -2,7 +2,8 @@
 """The hard cases at every accuracy, instruction set and thread count.
 
 --golden FILE        the standard level's hashes have to be those in FILE; --bless writes them
---scenes PROGRAM     ref_app_osmesa's eight scenes, too, at sizes nobody has: 16x16, 1x16384, 4096x4096
+--scenes PROGRAM     ref_app_osmesa's eight scenes at sizes nobody has: 16x16, 1x16384, 4096x4096
+--oracle LIBRARY     the oracle's picture of every case, and how far standard and exact are from it
 
 Otherwise: each case's own claim at each level at which it holds, and the same bytes of every case from each
 instruction set and thread count. HALFSPACE_LONG_TESTS=1 tries them all with each other, and makes sweeps whole.
@@ -11,6 +12,7 @@ import argparse
 import hashlib
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -18,6 +20,11 @@ import tempfile
 LEVELS = ("draft", "standard", "exact")
 ISAS = ("scalar", "sse4", "avx2", "avx512")
 LONG = os.environ.get("HALFSPACE_LONG_TESTS", "0") not in ("", "0")
+LINE = re.compile(r"(\w+) +colour +([\d.]+) +depth +([\d.]+) .* (\d+) wrong at edges")
+# What the oracle, which computes each pixel in rationals and MPFR, needs minutes for.
+SLOW_FOR_ORACLE = ("mesh_dust", "mesh_viewport_16384", "thousand_blends")
+# Levels of colour, units of depth (2^-24 of the range).
+BOUNDS = {"standard": (0.55, 1.0), "exact": (0.5001, 0.5001)}
 # What a machine lacks is not forced on it: HALFSPACE_ISA falls back to the best there is.
 SMALL_RUNS = [("scalar", 1), ("sse4", 2), ("avx2", 3), ("avx512", 8)]
 RUNS = [(isa, threads) for isa in ISAS for threads in (1, 2, 3, 8)] if LONG else SMALL_RUNS
@@ -86,6 +93,29 @@ class Judge:
         self.expect_same("golden", dict(line.split() for line in path.read_text().splitlines()), now)
         print(f"{len(now)} cases compared with {path.name}")
 
+    def against_oracle(self, oracle, size):
+        names = [name for name, _ in self.cases() if LONG or name not in SLOW_FOR_ORACLE]
+        with tempfile.TemporaryDirectory() as folder:
+            env = dict(environment(oracle, "standard"), HALFSPACE_TRUTH=folder)
+            text, errors, status = output([self.program, "--judge", *names, "--size", size], env)
+            if status or "Halfspace oracle" not in errors:
+                self.fail(f"the oracle itself: {text}{errors}")
+                return
+            for level, bounds in BOUNDS.items():
+                text, errors, status = output([self.program, "--draw", *names, "--size", size, "--truth", folder],
+                                              environment(self.library, level))
+                print(f"{level}:\n{text}", end="")
+                errors_of = [self.error_of(line, level, bounds) for line in text.splitlines()]
+                if status or len(errors_of) != len(names):
+                    self.fail(f"{level}: status {status}, {len(errors_of)} of {len(names)} cases, {errors.strip()}")
+
+    def error_of(self, line, level, bounds):
+        found = LINE.match(line)
+        name, color, depth, wrong = found.group(1), float(found.group(2)), float(found.group(3)), int(found.group(4))
+        if color > bounds[0] or depth > bounds[1] or wrong > 0:
+            self.fail(f"{level}: {line}")
+        return name
+
     def scene_digest(self, scenes, size, level, isa, threads):
         with tempfile.TemporaryDirectory() as folder:
             _, errors, status = output(
@@ -113,10 +143,14 @@ def main():
     parser.add_argument("--golden", type=pathlib.Path)
     parser.add_argument("--bless", action="store_true")
     parser.add_argument("--scenes", help="ref_app_osmesa")
+    parser.add_argument("--oracle", type=pathlib.Path, help="the oracle's libOSMesa.so.8")
+    parser.add_argument("--size", default="64x64", help="of the pictures compared with the oracle's")
     args = parser.parse_args()
     judge = Judge(args)
     if args.golden:
         judge.golden(args.golden, args.bless)
+    elif args.oracle:
+        judge.against_oracle(args.oracle, args.size)
     elif args.scenes:
         judge.scenes(args.scenes)
     else:

@@ -154,7 +154,7 @@ void start_again_with(const Options& options, char** argv) {
 }
 
 void list_cases() {
-  for (const Case& c : cases()) std::printf("%s\t%s\t%s\n", c.name, c.level, c.hazard);
+  for (const Case& c : cases()) std::printf("%s\t%s\t%s\t%s\n", c.name, c.level, c.hazard, c.claim);
 }
 
 }  // namespace
@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
   using namespace halfspace::hard;
   Options options;
   CLI::App app("The hard cases of rasterisation, drawn by any libOSMesa");
-  app.add_flag("--list", options.list, "names, least accuracy and hazards, a case a line");
+  app.add_flag("--list", options.list, "names, least accuracy, hazards and claims, a case a line");
   bool draw = false;
   app.add_flag("--draw", draw, "draw the cases named, or all");
   app.add_flag("--hash", options.hash, "draw them and print a hash of colour and depth");

@@ -58,6 +58,7 @@ struct Case {
   const char* name;
   const char* level;  // the least accuracy at which the claim holds
   const char* hazard;
+  const char* claim;
   void (*draw)(Stage&);
 };
 
