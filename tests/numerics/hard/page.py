@@ -40,7 +40,7 @@ def errors(args, name, truth):
 def picture(args, name, folder):
     with tempfile.TemporaryDirectory() as scratch:
         call(args, args.library, ["--draw", name, "--show", "--out", scratch])
-        subprocess.run(["convert", f"{scratch}/{name}.ppm", "-filter", "Box", "-resize", "128x128", "-colors", "96",
+        subprocess.run(["convert", f"{scratch}/{name}.ppm", "-filter", "Box", "-resize", "128x128", "-dither", "None", "-colors", "96",
                         "-strip", f"PNG8:{folder}/{name}.png"], check=True)
 
 
