@@ -145,8 +145,10 @@ class ColumnWalk {
   void next() {
     ++u_;
     rest_ += step_;
-    if (rest_ >= pitch_) rest_ -= pitch_, ++v_;
-    if (rest_ < 0) rest_ += pitch_, --v_;
+    // Without branches: which way it goes is as good as random.
+    const int64_t up = rest_ >= pitch_, down = rest_ < 0;
+    rest_ += (pitch_ & -down) - (pitch_ & -up);
+    v_ += up - down;
   }
 
  private:

@@ -44,6 +44,7 @@ struct TileContext {
   BlockContext block;
   SetupBatch setup;
   SetupInput input;
+  bool input_is_clear;
   Packer packer;
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
 };
@@ -314,6 +315,8 @@ void RunSegment(TileContext& t, const Segment& segment) {
       int count = 0;
       while (count < kSetupLanes && at + static_cast<size_t>(count) < total && ids[at + static_cast<size_t>(count)] < end)
         ++count;
+      if (!t.input_is_clear) t.input.Clear();  // lanes beyond a batch's count are computed with, though never used
+      t.input_is_clear = true;
       SetUp(segment, record, ids + at, count, t.x, t.y, t.limit, t.input, t.setup);
       const size_t next = at + static_cast<size_t>(count);
       PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + next,
@@ -333,7 +336,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   alignas(64) float whole[kBlockPixels];
   for (float& c : whole) c = 1;
   TileContext t;
-  t.input.Clear();  // lanes beyond a batch's count are computed with, though never used
+  t.input_is_clear = false;
   t.framebuffer = &framebuffer;
   t.state = &framebuffer.tiles.data()[tile];
   t.tile = tile;
