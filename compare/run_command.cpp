@@ -20,6 +20,7 @@ struct RunOptions {
   std::vector<std::string> program;
   std::string capture, format = "png";
   std::optional<std::string> library;
+  std::string stats, view;
   bool preload = false, force = false;
 };
 
@@ -38,6 +39,9 @@ ChildCommand child_command(const RunOptions& options) {
   if (options.preload) child.environment.push_back(preload_with(folder / kLibraryName));
   if (!options.capture.empty())
     child.environment.emplace_back("HALFSPACE_CAPTURE", fs::absolute(options.capture).string());
+  if (!options.stats.empty())
+    child.environment.emplace_back("HALFSPACE_STATS", options.stats == "draws" ? "draws" : "1");
+  if (!options.view.empty()) child.environment.emplace_back("HALFSPACE_VIEW", options.view);
   return child;
 }
 
@@ -99,6 +103,10 @@ void add_run_command(CLI::App& app, int& status) {
   command->add_flag("--force", options->force, "Replace frames captured before");
   command->add_flag("--preload", options->preload,
                     "Also LD_PRELOAD libGL.so.1, for a program with a library path of its own");
+  command->add_flag("--stats{picture}", options->stats,
+                    "Print what each picture took; --stats=draws: each draw, too");
+  command->add_option("--view", options->view, "Show the work instead of the picture")
+      ->check(CLI::IsMember({"overdraw", "levels", "tiles", "wireframe"}));
   command->add_option("--library", options->library, "Folder that holds libGL.so.1")->type_name("DIR");
   // Everything from PROGRAM on is the program's, options too.
   command->prefix_command();

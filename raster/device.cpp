@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "raster/tile/tile_worker.h"
 #include "raster/vertex/shade_point.h"
 #include "raster/vertex/vertex_stage.h"
+#include "raster/view.h"
 
 namespace halfspace::raster {
 namespace {
@@ -52,11 +54,6 @@ bool fuses(const DeviceOptions& options) {
   return options.fuse && (wish == nullptr || std::strcmp(wish, "0") != 0);
 }
 
-bool wants_statistics() {
-  const char* wish = std::getenv("HALFSPACE_STATS");
-  return wish != nullptr && *wish != '\0' && std::strcmp(wish, "0") != 0;
-}
-
 Rect draw_window(const DrawState& state, const Framebuffer::Impl& fb) {
   const Rect whole{0, 0, fb.width, fb.height};
   return state.raster.scissor_test ? intersect(whole, state.raster.scissor) : whole;
@@ -73,15 +70,20 @@ struct Device::Impl {
   using Clock = std::chrono::steady_clock;
   explicit Impl(const DeviceOptions& options)
       : pool(thread_count(options)),
-        prints(wants_statistics()),
-        meters(options.meter || prints),
-        fuse(fuses(options) && !meters) {}
+        report(report_from_environment()),
+        meters(options.meter || report != Report::nothing),
+        fuse(fuses(options) && !meters) {
+    const View view = view_from_environment();
+    if (view != View::none) notes.emplace(view);
+  }
 
   ThreadPool pool;
-  const bool prints, meters;  // statistics of stages
+  const Report report;
+  const bool meters;  // statistics of stages
   const bool fuse;
   StageMeter meter;                        // since creation
   DeviceStatistics statistics_at_picture;  // what had been counted when the last picture was shown
+  std::optional<ViewNotes> notes;          // for a view in the picture's place
   Framebuffer::Impl* target = nullptr;
   DeviceStatistics statistics;
 
@@ -113,6 +115,7 @@ struct Device::Impl {
   void run_split(uint32_t count, const Task& task);
   void count_vertices(const DrawState& state, uint32_t count, Clock::duration time);
   void report_stages(const LinearImage* image);
+  void report_draw(const DeviceStatistics& before);
   void find_clip_distances(const VertexBatch& batch, DrawRecord& record);
   void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void need_planes(const DrawState& state, const PipelineProgram& program);
@@ -170,9 +173,16 @@ void Device::Impl::report_stages(const LinearImage* image) {
     if (meter.fragments[at] != 0)
       statistics.stages.push_back({stage_name(id), meter.fragments[at], meter.nanoseconds[at]});
   }
-  if (!prints || image == nullptr || statistics.draws == statistics_at_picture.draws) return;
-  print_statistics(statistics_at_picture, statistics);
+  if (report == Report::nothing || image == nullptr || statistics.draws == statistics_at_picture.draws) return;
+  print_statistics(statistics_at_picture, statistics,
+                   static_cast<size_t>(target->width) * static_cast<size_t>(target->height));
   statistics_at_picture = statistics;
+}
+
+// Where each draw is reported: draws it at once, and prints what that took.
+void Device::Impl::report_draw(const DeviceStatistics& before) {
+  execute(nullptr);
+  print_statistics(before, statistics, 0);
 }
 
 void Device::Impl::find_clip_distances(const VertexBatch& batch, DrawRecord& record) {
@@ -355,6 +365,8 @@ void Device::Impl::hand_over(const LinearImage* image, ColorPlane plane) {
   batch.deal_tiles(*target, image != nullptr, pool.size());
   counts.assign(static_cast<size_t>(pool.size()), {});
   worker_meters.assign(meters ? counts.size() : 0, {});
+  if (notes) notes->attend(*target);
+  if (notes && image != nullptr) target->need_color(static_cast<uint8_t>(plane));
   rendering = &batch;
   if (pool.size() > 1) filling = &batches[filling == &batches[0] ? 1 : 0];
   const LinearImage shown = image != nullptr ? *image : LinearImage();
@@ -363,7 +375,9 @@ void Device::Impl::hand_over(const LinearImage* image, ColorPlane plane) {
     const auto at = static_cast<size_t>(worker);
     TileStatistics local;
     if (meters) local.meter = &worker_meters[at];
+    if (notes) local.notes = notes->tile(batch.tiles[i]);
     if (!batch.empty()) run_tile(batch.segments(), *target, batch.tiles[i], local);
+    if (shows && notes) notes->paint_tile(*target, batch.tiles[i], plane_index(plane));
     if (shows) resolve_tile(*target, batch.tiles[i], plane_index(plane), shown);
     counts[at].fragments += local.fragments;
     counts[at].double_fragments += local.double_fragments;
@@ -393,11 +407,23 @@ void Device::clear(const ClearCommand& command) {
   if (impl_->target == nullptr) return;
   if (impl_->filling->is_covered_by(command, *impl_->target)) impl_->discard(*impl_->filling);
   impl_->execute(nullptr);
+  // What was drawn before is not to be seen in a view either.
+  if (impl_->notes && command.color && clears_everything(*impl_->target, command)) impl_->notes->forget();
   raster::clear(*impl_->target, command);
 }
 
-void Device::draw(const DrawPacket& packet) { impl_->draw(packet); }
-void Device::draw_pixels(const PixelPacket& packet) { impl_->draw_pixels(packet); }
+void Device::draw(const DrawPacket& packet) {
+  if (impl_->report != Report::draws || impl_->target == nullptr) return impl_->draw(packet);
+  const DeviceStatistics before = impl_->statistics;
+  impl_->draw(packet);
+  impl_->report_draw(before);
+}
+void Device::draw_pixels(const PixelPacket& packet) {
+  if (impl_->report != Report::draws || impl_->target == nullptr) return impl_->draw_pixels(packet);
+  const DeviceStatistics before = impl_->statistics;
+  impl_->draw_pixels(packet);
+  impl_->report_draw(before);
+}
 ShadedPoint Device::shade_point(const DrawState& state, const VertexBatch& batch) {
   return raster::shade_point(state, batch);
 }

@@ -1,6 +1,8 @@
 #include "state/context.h"
 
+#include <cstdlib>
 #include <new>
+#include <string_view>
 
 #include "state/derive/accuracy.h"
 #include "state/operations.gen.h"
@@ -18,6 +20,8 @@ Context::Context(const VisualConfig& config, Context* share)
       lists(share ? &share->lists : nullptr) {
   color_buffer.draw_buffer = color_buffer.read_buffer = config.double_buffered ? GL_BACK : GL_FRONT;
   hint.accuracy = accuracy_from_environment();
+  const char* view = std::getenv("HALFSPACE_VIEW");
+  wireframe = view && std::string_view(view) == "wireframe";
 }
 
 Context::~Context() {

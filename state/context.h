@@ -68,6 +68,7 @@ struct Context {
   LineState line;
   PolygonState polygon;
   PolygonStippleState polygon_stipple;
+  bool wireframe = false;  // HALFSPACE_VIEW=wireframe: fill shows edges; no query tells of it
   LightingState lighting;
   DepthBufferState depth_buffer;
   StencilBufferState stencil_buffer;

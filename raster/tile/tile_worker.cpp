@@ -39,6 +39,8 @@ struct TileContext {
   bool even = false;  // the primitive at hand takes the program's variant for one colour all over
   bool knows_deepest = false;
   uint32_t deepest = 0;  // of the blocks' depth_max, where that is known
+  PixelNote* notes;      // of the tile's pixels, where a view asks for them; then nothing waits to be packed
+  bool projective;
   bool packs_points;  // points of one pixel wait with the others, without any set-up
   TileStatistics* statistics;
   BlockContext block;
@@ -91,6 +93,13 @@ HWY_NOINLINE void RunOnBothPlanes(TileContext& t, const BlockProgram& program, i
   program.run_tail(c);
 }
 
+HWY_NOINLINE void NoteBlock(TileContext& t, int lane, int block, uint64_t mask) {
+  const bool packs = t.program->packs && (t.setup.variant[lane] & kDouble) == 0 && __builtin_popcountll(mask) <= kPackAtMost;
+  const FragmentPath path = packs ? FragmentPath::packed : mask == ~uint64_t{0} ? FragmentPath::whole : FragmentPath::part;
+  note_fragments(t.notes, t.setup, lane, t.program->params, t.projective, block % 8 * kBlockSize, block / 8 * kBlockSize,
+                 mask, path);
+}
+
 void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   BlockContext& c = t.block;
   const SetupBatch& s = t.setup;
@@ -109,6 +118,7 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
     c.stencil = t.framebuffer->stencil_tile(t.tile) + block * kBlockPixels;
   }
   if (program.writes_color) SelectColor(t, block, program.plane);
+  if (HWY_UNLIKELY(t.notes != nullptr)) NoteBlock(t, lane, block, mask);
   c.lane = lane;
   c.live = mask;
   const auto fragments = static_cast<uint64_t>(__builtin_popcountll(mask));
@@ -236,6 +246,14 @@ uint64_t WalkBlocks(TileContext& t, const TriangleWalk& walk, int lane, bool pac
   return filled;
 }
 
+HWY_NOINLINE void NoteFilled(TileContext& t, int lane, uint64_t blocks) {
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int block = __builtin_ctzll(blocks);
+    note_fragments(t.notes, t.setup, lane, t.program->params, t.projective, block % 8 * kBlockSize,
+                   block / 8 * kBlockSize, ~uint64_t{0}, FragmentPath::filled);
+  }
+}
+
 void WalkTriangle(TileContext& t, int lane, bool packs) {
   if (TileHides(t, lane)) return;
   const TriangleWalk walk(t.setup, lane);
@@ -254,12 +272,13 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
   if (filled != 0) {
     if ((t.packer.blocks & filled) != 0) FlushPacked(t);
     FillBlocks(t, filled, EvenPixel(t, lane, stages));
+    if (HWY_UNLIKELY(t.notes != nullptr)) NoteFilled(t, lane, filled);
   }
   t.even = false;
 }
 
 HWY_INLINE bool Packs(const TileContext& t, int lane) {
-  return t.program->packs && (t.setup.variant[lane] & kDouble) == 0;
+  return t.program->packs && t.notes == nullptr && (t.setup.variant[lane] & kDouble) == 0;
 }
 
 void RunTriangle(TileContext& t, int lane) {
@@ -287,7 +306,8 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   t.block.params = &draw.program->params;
   t.plane_count = 2 + draw.vertices.layout.attribute_count;
   t.flat_color = draw.vertices.layout.color >= 0 && draw.state->raster.flat_shading;
-  t.packs_points = PacksPoints(draw);
+  t.projective = draw.vertices.layout.projective;
+  t.packs_points = t.notes == nullptr && PacksPoints(draw);
 }
 
 void RunSegment(TileContext& t, const Segment& segment) {
@@ -343,6 +363,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.x = static_cast<int>(tile % static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
   t.y = static_cast<int>(tile / static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
   t.statistics = &statistics;
+  t.notes = statistics.notes;
   t.block.meter = statistics.meter;
   t.block.setup = &t.setup;
   t.block.coverage = whole;

@@ -6,12 +6,14 @@
 #include "raster/fragment/program.h"
 #include "raster/primitive/segment.h"
 #include "raster/surface/framebuffer.h"
+#include "raster/view.h"
 
 namespace halfspace::raster {
 
 struct TileStatistics {
   uint64_t fragments = 0, double_fragments = 0;
   StageMeter* meter = nullptr;  // where stages are counted, or null
+  PixelNote* notes = nullptr;   // of the tile's pixels, for a view of them, or null
 };
 
 // Draws the bins of `tile` of all segments, in their order, on the framebuffer. Tiles are independent of each other.

@@ -135,8 +135,12 @@ void derive_shapes(const Context& context, DrawState& out) {
   out.point = {context.point.size, context.point.smooth, {}};
   const LineState& line = context.line;
   out.line = {line.width, line.smooth, line.stipple, line.pattern, line.repeat, {}};
-  out.polygon = {polygon_mode_of(p.mode[0]),
-                 polygon_mode_of(p.mode[1]),
+  // HALFSPACE_VIEW=wireframe: what would be filled shows its edges.
+  const auto mode = [&](GLenum m) {
+    return context.wireframe && m == GL_FILL ? raster::PolygonMode::line : polygon_mode_of(m);
+  };
+  out.polygon = {mode(p.mode[0]),
+                 mode(p.mode[1]),
                  p.smooth,
                  p.stipple,
                  context.polygon_stipple.pattern,
