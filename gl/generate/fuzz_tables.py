@@ -15,8 +15,14 @@ def required_names(root, kind):
     return list(names)
 
 
+# What GL writes to these is looked at by the player itself.
+CAPTURE_BUFFERS = ("glFeedbackBuffer", "glSelectBuffer")
+
+
 def is_sendable(command):
     """It can be sent to another process: no answer through a pointer, no pointer but one to data that is read."""
+    if command.name in CAPTURE_BUFFERS:
+        return True
     pointers = [p for p in command.parameters if p.is_pointer]
     return len(pointers) <= 1 and all(p.type.startswith("const ") for p in pointers)
 

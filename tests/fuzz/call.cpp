@@ -1,6 +1,8 @@
 #include "call.h"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <type_traits>
@@ -12,7 +14,9 @@ namespace {
 template <typename Parameter>
 Parameter argument_of(const Call& call, size_t index) {
   if constexpr (std::is_pointer_v<Parameter>) {
-    return call.data.empty() ? nullptr : reinterpret_cast<Parameter>(call.data.data());
+    // GL writes to the buffers of selection and feedback; those of a stream that is played are not constant.
+    auto* data = const_cast<uint8_t*>(call.data.data());
+    return call.data.empty() ? nullptr : reinterpret_cast<Parameter>(data);
   } else if constexpr (std::is_integral_v<Parameter>) {
     return static_cast<Parameter>(static_cast<long long>(call.arguments[index]));
   } else {
@@ -67,6 +71,16 @@ bool is_allowed_inside(Command command) {
   return false;
 }
 
+// What everyone refuses between Begin and End. Of the client's state, of lists and of images some is let
+// through.
+bool is_refused_inside(Command command) {
+  static const char* const kParts[] = {"Pointer", "Client", "List",   "Pixel",  "Interleaved", "Draw",
+                                       "Tex",     "Render", "Buffer", "Bitmap", "Map",         "Is"};
+  const std::string name = name_of(command);
+  return std::none_of(std::begin(kParts), std::end(kParts),
+                      [&](const char* part) { return name.find(part) != std::string::npos; });
+}
+
 bool makes_vertex(Command command) {
   const std::string name = name_of(command);
   return name.starts_with("glVertex") || name.starts_with("glArrayElement") || name.starts_with("glEval");
@@ -80,6 +94,7 @@ class Grammar {
   bool accepts(const Call& call) {
     switch (call.command) {
       case Command::glBegin:
+        if (call.arguments[0] > GL_POLYGON) return true;  // refused
         return !std::exchange(inside_, true) && begin(static_cast<int>(call.arguments[0]));
       case Command::glEnd:
         return std::exchange(inside_, false) && is_whole() && (!listing_ || last_is_vertex_);
@@ -108,7 +123,7 @@ class Grammar {
   }
 
   bool accepts_inside(Command command) {
-    if (!is_allowed_inside(command)) return false;
+    if (!is_allowed_inside(command)) return !listing_ && is_refused_inside(command);
     last_is_vertex_ = makes_vertex(command);
     if (last_is_vertex_) {
       ++vertices_;

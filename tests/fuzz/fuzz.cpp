@@ -135,11 +135,12 @@ class Fuzzer {
  private:
   Verdict judge_stream(const Stream& stream) {
     outcome_ = ours_.render(options_.sabotage ? sabotaged(stream) : stream, kWidth, kHeight);
+    const Limits limits = widened(options_.limits, stream);
     // llvmpipe, which compiles, is asked only when it matters.
     first_ = softpipe_.render(stream, kWidth, kHeight);
-    if (judge(outcome_, first_, first_, options_.limits).agrees) return {};
+    if (judge(outcome_, first_, first_, limits).agrees) return {};
     second_ = llvmpipe_.render(stream, kWidth, kHeight);
-    return judge(outcome_, first_, second_, options_.limits);
+    return judge(outcome_, first_, second_, limits);
   }
 
   Stream cut_down(const Stream& stream) {

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 
+#include "capture.h"
 #include "maker.h"
 #include "shrink.h"
 #include "verdict.h"
@@ -18,7 +20,13 @@ void set(Picture& picture, int x, int y, uint8_t level) {
   for (int c = 0; c < 4; ++c) picture.rgba[static_cast<size_t>((y * picture.width + x) * 4 + c)] = level;
 }
 
-Outcome outcome(Picture picture) { return {"", std::move(picture), {}}; }
+Outcome outcome(Picture picture) {
+  Outcome result;
+  result.picture = std::move(picture);
+  result.depth.resize(result.picture.rgba.size() / 4, 0.5f);
+  result.stencil.resize(result.depth.size(), 1);
+  return result;
+}
 
 // Left of `edge` 10, else 200.
 Picture halves(int edge) {
@@ -63,6 +71,48 @@ TEST(Judge, LeavesOpenWhatTheReferencesDoNotAgreeOn) {
   EXPECT_FALSE(judge(ours, outcome(plain(4, 4, 198)), outcome(plain(4, 4, 200)), {3, 0}).agrees);
 }
 
+TEST(Judge, LooksAtDepthAndStencil) {
+  const Outcome reference = outcome(plain(8, 8, 50));
+  const Limits limits{2, 0};
+  Outcome ours = reference;
+  ours.depth[9] = 0.5f + 1.0f / 8192;
+  EXPECT_TRUE(judge(ours, reference, reference, limits).agrees);
+  ours.depth[9] = 0.5f + 1.0f / 2048;
+  EXPECT_FALSE(judge(ours, reference, reference, limits).agrees);
+  ours = reference;
+  ours.stencil[9] = 2;
+  EXPECT_FALSE(judge(ours, reference, reference, limits).agrees);
+}
+
+Capture capture(uint32_t mode, std::vector<uint32_t> words) {
+  return {3, mode, GL_2D, static_cast<int32_t>(words.size()), std::move(words)};
+}
+Capture feedback(std::initializer_list<float> numbers) {
+  std::vector<uint32_t> words;
+  for (float number : numbers) words.push_back(std::bit_cast<uint32_t>(number));
+  return capture(GL_FEEDBACK, std::move(words));
+}
+
+TEST(Captures, HitsHaveNamesAndDepths) {
+  const Capture one = capture(GL_SELECT, {2, 1000, 2000, 7, 8});
+  EXPECT_EQ(compare(one, capture(GL_SELECT, {2, 5000, 2000, 7, 8})), "");
+  EXPECT_NE(compare(one, capture(GL_SELECT, {2, 1000, 2000, 7, 9})), "");
+  EXPECT_NE(compare(one, capture(GL_SELECT, {2, 1000, 1u << 22, 7, 8})), "");
+  EXPECT_NE(compare(one, capture(GL_SELECT, {})), "");
+}
+
+TEST(Captures, PolygonsMayBeCutOtherwise) {
+  constexpr float kPolygon = GL_POLYGON_TOKEN, kPoint = GL_POINT_TOKEN;
+  const Capture quad = feedback({kPolygon, 4, 0, 0, 20, 0, 20, 20, 0, 20, kPoint, 3, 4});
+  const Capture halves =
+      feedback({kPolygon, 3, 20, 0, 20, 20, 0, 20, kPolygon, 3, 0, 0, 20, 0, 0, 20, kPoint, 3, 4});
+  EXPECT_EQ(compare(quad, halves), "");
+  EXPECT_NE(compare(quad, feedback({kPolygon, 4, 0, 0, 20, 0, 20, 20, 0, 20, kPoint, 3, 4.25f})), "");
+  EXPECT_NE(compare(quad, feedback({kPolygon, 4, 0, 0, 20, 0, 20, 20, 0, 20})), "");
+  EXPECT_NE(compare(quad, feedback({kPolygon, 3, 0, 0, 20, 0, 20, 20, kPoint, 3, 4})), "half is missing");
+  EXPECT_NE(compare(quad, feedback({kPolygon, 4, 0, 20, 20, 20, 20, 0, 0, 0, kPoint, 3, 4})), "turned over");
+}
+
 TEST(Judge, HoldsErrorsAgainstEachOther) {
   Outcome ours = outcome(plain(4, 4, 100)), theirs = ours;
   theirs.errors = {{7, GL_INVALID_ENUM}};
@@ -98,7 +148,8 @@ TEST(Stream, EveryFeatureTakesPart) {
   }
   for (const char* name :
        {"glBegin", "glDrawElements", "glFogi", "glLightfv", "glStencilOp", "glLogicOp", "glDrawPixels",
-        "glCallLists", "glEvalMesh2", "glPushAttrib", "glAccum", "glCopyTexImage2D", "glTexGeni"})
+        "glCallLists", "glEvalMesh2", "glSelectBuffer", "glFeedbackBuffer", "glPushClientAttrib", "glIndexub",
+        "glPushAttrib", "glAccum", "glCopyTexImage2D", "glTexGeni"})
     EXPECT_NE(std::find(met.begin(), met.end(), name), met.end()) << name;
 }
 

@@ -159,11 +159,7 @@ void draw_arrays(Maker& m, const Shape& shape) {
       for (int i = 0; i < count; ++i) m.call(Command::glArrayElement, {double(i)});
       m.call(Command::glEnd);
   }
-  // The current colour is undefined after an array of colours was drawn.
-  const std::vector<float> color = m.color();
-  m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
-  m.call(Command::glTexCoord2f, {0, 0});
-  m.call(Command::glNormal3f, {0, 0, 1});
+  reset_current(m);
 }
 
 void add_shape(Maker& m) {
@@ -224,6 +220,14 @@ Shape random_shape(Maker& m) {
 }
 
 void draw_shape(Maker& m, const Shape& shape) { draw_immediately(m, shape); }
+void draw_with_arrays(Maker& m, const Shape& shape) { draw_arrays(m, shape); }
+
+void reset_current(Maker& m) {
+  const std::vector<float> color = m.color();
+  m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
+  m.call(Command::glTexCoord2f, {0, 0});
+  m.call(Command::glNormal3f, {0, 0, 1});
+}
 
 const std::vector<Feature>& drawing_features() {
   static const std::vector<Feature> kFeatures = {

@@ -4,21 +4,6 @@
 namespace halfspace::fuzz {
 namespace {
 
-void set_raster_position(Maker& m) {
-  const std::vector<float> color = m.color();
-  m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
-  m.set_enabled(GL_LIGHTING, false);
-  m.call(Command::glRasterPos3f,
-         {m.random.real(-0.9, 0.7), m.random.real(-0.9, 0.7), m.random.real(-0.5, 0.5)});
-  // Mesa does not texture what it copies, nor with the raster position's coordinates.
-  m.set_enabled(GL_TEXTURE_1D, false);
-  m.set_enabled(GL_TEXTURE_2D, false);
-  // Nor does it take the raster position's distance for fog, light it as it lights a point, or mind the
-  // colour mask when it copies.
-  m.set_enabled(GL_FOG, false);
-  m.call(Command::glColorMask, {1, 1, 1, 1});
-}
-
 void set_unpacking(Maker& m) {
   m.call(Command::glPixelStorei, {GL_UNPACK_ALIGNMENT, double(m.random.pick({1, 1, 2, 4, 8}))});
   m.call(Command::glPixelStorei, {GL_UNPACK_LSB_FIRST, double(m.random.below(2))});
@@ -120,6 +105,21 @@ void add_transfer(Maker& m) {
 }
 
 }  // namespace
+
+void set_raster_position(Maker& m) {
+  const std::vector<float> color = m.color();
+  m.call(Command::glColor4f, {double(color[0]), double(color[1]), double(color[2]), double(color[3])});
+  m.set_enabled(GL_LIGHTING, false);
+  m.call(Command::glRasterPos3f,
+         {m.random.real(-0.9, 0.7), m.random.real(-0.9, 0.7), m.random.real(-0.5, 0.5)});
+  // Mesa does not texture what it copies, nor with the raster position's coordinates.
+  m.set_enabled(GL_TEXTURE_1D, false);
+  m.set_enabled(GL_TEXTURE_2D, false);
+  // Nor does it take the raster position's distance for fog, light it as it lights a point, or mind the
+  // colour mask when it copies.
+  m.set_enabled(GL_FOG, false);
+  m.call(Command::glColorMask, {1, 1, 1, 1});
+}
 
 const std::vector<Feature>& pixel_features() {
   static const std::vector<Feature> kFeatures = {

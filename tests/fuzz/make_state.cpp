@@ -114,12 +114,18 @@ void add_line_stipple(Maker& m) {
   m.set_enabled(GL_LINE_STIPPLE, m.random.chance(75));
 }
 
+// Of a smooth point of one pixel Mesa draws a pixel, the covered parts of four are right.
 void add_point_size(Maker& m) {
-  m.call(Command::glPointSize, {double(m.random.between(1, 9))});
+  m.call(Command::glPointSize, {double(m.random.between(m.smooth ? 2 : 1, 9))});
 }
 
+// How much of a pixel is covered, is for each renderer to say: widened() in verdict.h.
+// Mesa's points of polygons have no smooth edges.
 void add_smoothing(Maker& m) {
+  if (m.polygon_points) return;
+  m.smooth = true;
   m.set_enabled(static_cast<GLenum>(m.random.pick({GL_POINT_SMOOTH, GL_LINE_SMOOTH})), m.random.chance(75));
+  add_point_size(m);
   m.set_enabled(GL_BLEND, true);
   m.call(Command::glBlendFunc, {GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA});
 }
@@ -145,6 +151,10 @@ void add_pop_attributes(Maker& m) {
 // In which order the edges of a polygon are drawn is open: let them have one colour.
 void prepare_for_edges(Maker& m) {
   m.polygon_points = true;
+  if (m.smooth) {
+    m.set_enabled(GL_POINT_SMOOTH, false);
+    m.set_enabled(GL_LINE_SMOOTH, false);
+  }
   leave_out_diagonals(m);
   draw_flat(m);
   m.set_enabled(GL_TEXTURE_1D, false);

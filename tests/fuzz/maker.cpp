@@ -19,10 +19,7 @@ std::vector<Feature> select(const std::vector<std::string>& groups, bool draws, 
   std::vector<Feature> selected;
   for (const Feature& feature : all_features()) {
     if (feature.draws != draws || (exact && !feature.exact)) continue;
-    // How smooth lines and points are is open; they are for those who ask.
-    const bool is_open = std::string(feature.group) == "smooth";
-    if ((groups.empty() && !is_open) ||
-        std::find(groups.begin(), groups.end(), feature.group) != groups.end())
+    if (groups.empty() || std::find(groups.begin(), groups.end(), feature.group) != groups.end())
       selected.push_back(feature);
   }
   return selected;
@@ -51,7 +48,8 @@ void set_up_view(Maker& maker) {
 std::vector<Feature> all_features() {
   std::vector<Feature> all;
   for (const auto* part : {&state_features(), &fragment_features(), &lighting_features(), &texture_features(),
-                           &drawing_features(), &pixel_features(), &list_features()})
+                           &drawing_features(), &pixel_features(), &list_features(), &capture_features(),
+                           &refused_features(), &client_features()})
     all.insert(all.end(), part->begin(), part->end());
   return all;
 }

@@ -81,6 +81,8 @@ struct Maker {
   bool transfers = false;
   // Polygons may be drawn as points or lines.
   bool polygon_points = false;
+  // Points and lines are not just pixels.
+  bool smooth = false;
   // There are clip planes.
   bool clip_planes = false;
   int pushed_matrices = 0, pushed_attributes = 0, pushed_client_attributes = 0;
@@ -123,10 +125,18 @@ const std::vector<Feature>& texture_features();
 const std::vector<Feature>& drawing_features();
 const std::vector<Feature>& pixel_features();
 const std::vector<Feature>& list_features();
+const std::vector<Feature>& capture_features();
+const std::vector<Feature>& refused_features();
+const std::vector<Feature>& client_features();
 
 // By one of the ways GL has: immediate mode, arrays, elements.
 void draw_shape(Maker& maker, const Shape& shape);
+void draw_with_arrays(Maker& maker, const Shape& shape);
+// The current colour is undefined after an array of colours was drawn.
+void reset_current(Maker& maker);
 Shape random_shape(Maker& maker);
+// A valid one, and the state in which what is drawn there is not open.
+void set_raster_position(Maker& maker);
 // Before polygons are drawn as lines or points.
 void prepare_for_edges(Maker& maker);
 

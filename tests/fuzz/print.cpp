@@ -115,6 +115,10 @@ std::string argument(const Call& call, size_t index, const std::string& group) {
   const double value = call.arguments[index];
   if constexpr (std::is_pointer_v<Parameter>) {
     if (call.data.empty()) return "NULL";
+    using Element = std::remove_pointer_t<Parameter>;
+    if constexpr (!std::is_const_v<Element>)
+      return "(" + std::string(type_name<Element>()) + "[" +
+             std::to_string(call.data.size() / sizeof(Element)) + "]){0}";
     return literal<std::remove_cv_t<std::conditional_t<std::is_void_v<std::remove_pointer_t<Parameter>>,
                                                        GLubyte, std::remove_pointer_t<Parameter>>>>(
         call.data);

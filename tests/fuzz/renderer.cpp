@@ -28,6 +28,19 @@ bool answers_in_time(int file) {
   return ready > 0;
 }
 
+bool read_captures(int file, std::vector<Capture>& captures) {
+  uint32_t count = 0;
+  if (!read_all(file, &count, sizeof(count))) return false;
+  captures.resize(count);
+  for (Capture& capture : captures) {
+    uint32_t head[5];
+    if (!read_all(file, head, sizeof(head))) return false;
+    capture = {head[0], head[1], head[2], static_cast<int32_t>(head[3]), std::vector<uint32_t>(head[4])};
+    if (!read_all(file, capture.words.data(), capture.words.size() * sizeof(uint32_t))) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Renderer::Renderer(std::string player, std::string library, std::string driver)
@@ -106,8 +119,12 @@ Outcome Renderer::render(const Stream& stream, int width, int height) {
   Picture& picture = outcome.picture;
   const size_t pixels = size_t{header[0]} * header[1];
   picture = {width, height, std::vector<uint8_t>(4 * pixels), std::vector<uint32_t>(pixels)};
+  outcome.depth.resize(pixels);
+  outcome.stencil.resize(pixels);
   if (!read_all(from_, picture.rgba.data(), picture.rgba.size()) ||
-      !read_all(from_, picture.depth.data(), pixels * sizeof(uint32_t)))
+      !read_all(from_, picture.depth.data(), pixels * sizeof(uint32_t)) ||
+      !read_all(from_, outcome.depth.data(), sizeof(float) * pixels) ||
+      !read_all(from_, outcome.stencil.data(), pixels) || !read_captures(from_, outcome.captures))
     outcome.trouble = stop();
   return outcome;
 }

@@ -15,12 +15,25 @@ struct Picture {
   std::vector<uint32_t> depth;  // of our library: 0 .. 2^24 - 1
 };
 
+// What a glRenderMode that left selection or feedback brought.
+struct Capture {
+  uint32_t call = 0;
+  uint32_t mode = 0;            // GL_SELECT or GL_FEEDBACK
+  uint32_t type = 0;            // of the feedback buffer
+  int32_t result = 0;           // what glRenderMode returned
+  std::vector<uint32_t> words;  // of the buffer, as far as they were written; floats by their bits
+};
+
 struct Outcome {
   // "" if all went well, else how the player ended.
   std::string trouble;
   Picture picture;
   // (index of the call, GL error)
   std::vector<std::pair<uint32_t, uint32_t>> errors;
+  // At the end, bottom row first.
+  std::vector<float> depth;
+  std::vector<uint8_t> stencil;
+  std::vector<Capture> captures;
 };
 
 class Renderer {

@@ -19,6 +19,11 @@ struct Limits {
   int pixels = 6;
 };
 
+// Of smooth lines and points GL says what covers a pixel wholly or not at all, and leaves the rest to the
+// renderer (spec 3.3, 3.4.2): it may be a quarter of it. The stipple of lines gets out of step with Mesa's,
+// which counts lengths; that shows where lines cross.
+Limits widened(const Limits& limits, const Stream& stream);
+
 struct Verdict {
   bool agrees = true;
   int wrong = 0;                 // pixels
@@ -26,8 +31,8 @@ struct Verdict {
   std::string reason;
 };
 
-// Both references have to disagree with ours, where they agree with each other: what one of them does alone
-// is its own affair. Either way round, so that what is missing shows, too.
+// Both references have to disagree with ours, where they agree with each other and all around, too: what one
+// of them does alone is its own affair. Either way round, so that what is missing shows, too.
 Verdict judge(const Outcome& ours, const Outcome& first, const Outcome& second, const Limits& limits);
 
 }  // namespace halfspace::fuzz
