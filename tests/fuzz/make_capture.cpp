@@ -45,13 +45,25 @@ void add_selection(Maker& m) {
   m.call(Command::glRenderMode, {GL_RENDER});
 }
 
+// Mesa generates coordinates, and takes them through their matrix, only where a texture is on.
+void leave_coordinates_alone(Maker& m) {
+  for (GLenum coordinate = GL_TEXTURE_GEN_S; coordinate <= GL_TEXTURE_GEN_Q; ++coordinate)
+    m.set_enabled(coordinate, false);
+  m.call(Command::glMatrixMode, {GL_TEXTURE});
+  m.call(Command::glLoadIdentity);
+  m.call(Command::glMatrixMode, {GL_MODELVIEW});
+}
+
 void add_feedback(Maker& m) {
   if (m.in_list || m.polygon_points) return;
   // In flat shading Mesa reports no colours but of the vertices they come from.
   const bool colors = !m.exact && !m.flat && m.random.chance(70);
   const double type = colors ? m.random.pick({GL_3D_COLOR, GL_3D_COLOR_TEXTURE, GL_4D_COLOR_TEXTURE})
                              : m.random.pick({GL_2D, GL_3D});
-  if (colors) m.call(Command::glShadeModel, {GL_SMOOTH});
+  if (colors) {
+    m.call(Command::glShadeModel, {GL_SMOOTH});
+    leave_coordinates_alone(m);
+  }
   const size_t words = 4096;
   m.call(Command::glFeedbackBuffer, {double(words), type, 0}, std::vector<GLfloat>(words));
   m.call(Command::glRenderMode, {GL_FEEDBACK});
