@@ -18,7 +18,7 @@ using namespace halfspace::fuzz;
 struct Options {
   std::string player, ours, theirs = "libOSMesa.so.8", out;
   uint64_t first = 1, count = 100;
-  std::vector<std::string> groups;
+  std::vector<std::string> groups, left_out;
   Limits limits;
   int most_tries = 400;
   bool print_only = false, sabotage = false;
@@ -28,7 +28,8 @@ struct Options {
   std::fprintf(
       stderr,
       "usage: fuzz --player PROGRAM --ours LIBRARY [--theirs LIBRARY] [--first SEED] [--seeds COUNT]\n"
-      "            [--groups a,b,...] [--levels N] [--pixels N] [--out DIR] [--print] [--no-shrink]\n"
+      "            [--groups a,b,...] [--without a,b,...] [--levels N] [--pixels N] [--out DIR] [--print] "
+      "[--no-shrink]\n"
       "            [--sabotage]   ours is not told of the last glBegin ... glEnd: this has to be found out\n"
       "groups:");
   for (const std::string& group : all_groups()) std::fprintf(stderr, " %s", group.c_str());
@@ -67,6 +68,8 @@ Options parse(int count, char** words) {
       options.count = std::stoull(value());
     else if (word == "--groups")
       options.groups = split(value());
+    else if (word == "--without")
+      options.left_out = split(value());
     else if (word == "--levels")
       options.limits.levels = std::stoi(value());
     else if (word == "--pixels")
@@ -82,6 +85,7 @@ Options parse(int count, char** words) {
     else
       usage();
   }
+  if (!options.left_out.empty()) options.groups = groups_without(options.groups, options.left_out);
   if (!options.print_only && (options.player.empty() || options.ours.empty())) usage();
   return options;
 }

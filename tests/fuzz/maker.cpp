@@ -63,6 +63,15 @@ std::vector<std::string> all_groups() {
   return groups;
 }
 
+std::vector<std::string> groups_without(const std::vector<std::string>& groups,
+                                        const std::vector<std::string>& left_out) {
+  std::vector<std::string> rest = groups.empty() ? all_groups() : groups;
+  std::erase_if(rest, [&](const std::string& group) {
+    return std::find(left_out.begin(), left_out.end(), group) != left_out.end();
+  });
+  return rest;
+}
+
 Stream make_stream(uint64_t seed, const std::vector<std::string>& groups) {
   Maker maker(seed);
   maker.exact = maker.random.chance(30);

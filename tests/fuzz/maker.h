@@ -143,6 +143,9 @@ void prepare_for_edges(Maker& maker);
 // Everything above.
 std::vector<Feature> all_features();
 std::vector<std::string> all_groups();
+// `groups` (none: all) but those left out.
+std::vector<std::string> groups_without(const std::vector<std::string>& groups,
+                                        const std::vector<std::string>& left_out);
 // `groups`: the names of those allowed; none: all.
 Stream make_stream(uint64_t seed, const std::vector<std::string>& groups);
 
