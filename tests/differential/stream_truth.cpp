@@ -46,7 +46,7 @@ class Checker {
         directory_(directory),
         ours_(options.player, options.ours, ""),
         oracle_(options.player, options.oracle, ""),
-        // The oracle neither selects nor feeds back; what smooth points and lines cover is exact at one level
+        // Selection and feedback draw nothing, and what smooth points and lines cover is exact at one level
         // only.
         groups_(fuzz::groups_without(split(options.groups), {"selection", "feedback", "smooth"})) {
     setenv("HALFSPACE_TRUTH", directory.c_str(), 1);  // of the oracle's player: ours does not know it
