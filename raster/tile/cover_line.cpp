@@ -7,6 +7,7 @@
 namespace halfspace::raster {
 namespace {
 
+constexpr int64_t kNoRow = INT64_MIN;
 constexpr int64_t kHalf = kSubpixelScale / 2;  // of a pixel: the diamond's half diagonal
 
 // Spec 3.4.1 moves both ends by (-e, -e^2), e as small as it takes. A linear form a*x + b*y + c that is zero
@@ -83,24 +84,22 @@ struct AxisLine {
     u0 = steep ? line.y0 : line.x0, v0 = steep ? line.x0 : line.y0;
   }
 
-  // Finds the fragment of column u: it is at *v. In each column the line passes within half a pixel of one
-  // centre, or of two when it runs exactly between them.
-  bool fragment(int64_t u, int64_t* v) const {
+  // In each column the line passes within half a pixel of one centre, or of two when it runs exactly between
+  // them: the row of column u's fragment, or kNoRow.
+  int64_t fragment(int64_t u) const {
     // v at the column's centre, times |du|: below 2^49.
     const int64_t at = u * kSubpixelScale + kHalf - u0;
     const int64_t scaled = v0 * std::abs(du) + (du < 0 ? -dv : dv) * at;
     const int64_t pitch = std::abs(du) * kSubpixelScale;
-    *v = floor_div(scaled, pitch);
-    return decide(u, *v * pitch == scaled, v);
+    const int64_t row = floor_div(scaled, pitch);
+    return decide(u, row, row * pitch == scaled);
   }
 
-  // The same where the line is known to be at row *v in the column's middle, `between`: exactly on its lower edge.
-  bool decide(int64_t u, bool between, int64_t* v) const {
-    if (between && makes_fragment(u, *v - 1))
-      --*v;
-    else if (!makes_fragment(u, *v))
-      return false;
-    return true;
+  // The same where the line is known to be at `row` in the column's middle, `between`: exactly on its lower
+  // edge. By value and kept out of the walk, so that the walk stays in registers.
+  [[gnu::noinline]] int64_t decide(int64_t u, int64_t row, bool between) const {
+    if (between && makes_fragment(u, row - 1)) return row - 1;
+    return makes_fragment(u, row) ? row : kNoRow;
   }
 
   // The columns whose diamonds the line, once moved, reaches into: an end on the boundary of two is moved to the
@@ -137,10 +136,10 @@ class ColumnWalk {
     step_ = rise * kSubpixelScale;  // at most a pitch, either way
   }
   int64_t u() const { return u_; }
-  bool fragment(int64_t* v) const {
-    *v = v_;
-    if (rest_ != 0 && u_ >= sure_from_ && u_ <= sure_to_) return true;
-    return line_.decide(u_, rest_ == 0, v);
+  int64_t fragment() const {
+    if (rest_ != 0 && u_ >= sure_from_ && u_ <= sure_to_) [[likely]]
+      return v_;
+    return line_.decide(u_, v_, rest_ == 0);
   }
   void next() {
     ++u_;
@@ -167,9 +166,9 @@ bool passes(const LineStipple& stipple, uint32_t index) {
 LineRun line_run(const LineEnds& ends, int width) {
   const AxisLine axis(ends, width);
   if (axis.du == 0) return {0, 0};
-  int64_t low = axis.first_column(), high = axis.last_column(), v;
-  while (low <= high && !axis.fragment(low, &v)) ++low;
-  while (high > low && !axis.fragment(high, &v)) --high;
+  int64_t low = axis.first_column(), high = axis.last_column();
+  while (low <= high && axis.fragment(low) == kNoRow) ++low;
+  while (high > low && axis.fragment(high) == kNoRow) --high;
   if (low > high) return {0, 0};
   return {int(axis.du > 0 ? low : high), uint32_t(high - low + 1)};
 }
@@ -191,8 +190,8 @@ void walk_line(const LineEnds& ends, int width, const LineStipple& stipple, int 
   const int middle_low = steep ? middle.x0 : middle.y0, middle_high = steep ? middle.x1 : middle.y1;
   const int64_t last = std::min<int64_t>(axis.last_column(), u_high - 1);
   for (ColumnWalk walk(axis, std::max<int64_t>(axis.first_column(), u_low)); walk.u() <= last; walk.next()) {
-    int64_t v;
-    if (!walk.fragment(&v)) continue;
+    const int64_t v = walk.fragment();
+    if (v == kNoRow) continue;
     const int64_t center = v + (width - 1) / 2;
     if (center < middle_low || center >= middle_high) continue;
     const int u = int(walk.u());
@@ -215,17 +214,32 @@ void cover_line(const LineEnds& ends, int width, const LineStipple& stipple, int
 
 void list_line(const LineEnds& ends, const LineStipple& stipple, int tile_x, int tile_y, const Rect& bounds,
                PixelList& out) {
+  out.count = 0;
+  out.touched = 0;
+  const AxisLine axis(ends, 1);
+  const Rect area = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
+  if (area.empty() || axis.du == 0) return;
+  const LineRun run = stipple.on ? line_run(ends, 1) : LineRun{0, 0};
+  const bool steep = axis.steep;
+  uint8_t* const along = steep ? out.y : out.x;
+  uint8_t* const across = steep ? out.x : out.y;
+  const int u_tile = steep ? tile_y : tile_x, v_tile = steep ? tile_x : tile_y;
+  const int64_t v_low = steep ? area.x0 : area.y0, v_high = steep ? area.x1 : area.y1;
+  const int64_t first = std::max<int64_t>(axis.first_column(), steep ? area.y0 : area.x0);
+  const int64_t last = std::min<int64_t>(axis.last_column(), (steep ? area.y1 : area.x1) - 1);
   int count = 0;
-  uint64_t touched = 0;
-  walk_line(ends, 1, stipple, tile_x, tile_y, bounds, bounds, [&](int x, int y) {
-    out.x[count] = uint8_t(x), out.y[count] = uint8_t(y);
+  for (ColumnWalk walk(axis, first); walk.u() <= last; walk.next()) {
+    const int64_t v = walk.fragment();
+    if (v < v_low || v >= v_high) continue;  // kNoRow too
+    if (stipple.on && !passes(stipple, uint32_t(std::abs(int(walk.u()) - run.first)))) continue;
+    along[count] = uint8_t(walk.u() - u_tile);
+    across[count] = uint8_t(v - v_tile);
     ++count;
-    touched |= uint64_t{1} << (y / kBlockSize * (kTileSize / kBlockSize) + x / kBlockSize);
-  });
+  }
+  for (int i = 0; i < count; ++i) out.touched |= uint64_t{1} << (out.y[i] / 8u * 8u + out.x[i] / 8u);
   out.count = count;
-  out.touched = touched;
-  const int first = count / PixelList::kGroup * PixelList::kGroup;
-  for (; count % PixelList::kGroup != 0; ++count) out.x[count] = out.x[first], out.y[count] = out.y[first];
+  const int group = count / PixelList::kGroup * PixelList::kGroup;
+  for (; count % PixelList::kGroup != 0; ++count) out.x[count] = out.x[group], out.y[count] = out.y[group];
 }
 
 Rect point_square(int32_t x, int32_t y, int size) {
