@@ -125,7 +125,10 @@ class Fuzzer {
     for (uint64_t seed = options_.first; seed < options_.first + options_.count; ++seed) {
       const Stream stream = make_stream(seed, options_.groups);
       const Verdict verdict = judge_stream(stream);
-      without_reference_ += !first_.trouble.empty();
+      if (!first_.trouble.empty()) {
+        ++without_reference_;
+        std::printf("seed %llu: Mesa %s\n", static_cast<unsigned long long>(seed), first_.trouble.c_str());
+      }
       if (verdict.agrees) continue;
       ++failures;
       std::printf("seed %llu: %s, %zu calls\n", static_cast<unsigned long long>(seed), verdict.reason.c_str(),
