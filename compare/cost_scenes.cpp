@@ -63,7 +63,7 @@ const SceneProgram& reference_scenes() {
 }
 
 const SceneProgram& hard_cases() {
-  static const SceneProgram kProgram{"hard_cases", "--draw", false};
+  static const SceneProgram kProgram{"hard_cases", "--draw", false, false};
   return kProgram;
 }
 

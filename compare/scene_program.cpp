@@ -23,22 +23,15 @@ std::string whole_file(const fs::path& path) {
 
 ChildCommand command_of(const DrawJob& job, const fs::path& json) {
   ChildCommand command;
-  command.arguments = {house_program(job.program.name).string(),
-                       "--size",
-                       std::to_string(job.width) + "x" + std::to_string(job.height),
-                       "--frames",
-                       std::to_string(job.frames),
-                       "--out",
-                       job.out.string(),
-                       "--json",
-                       json.string()};
+  command.arguments = {house_program(job.program.name).string()};
   const auto add = [&command](std::initializer_list<std::string> words) {
     command.arguments.insert(command.arguments.end(), words);
   };
-  if (job.pictures)
-    add({"--format", "png"});
-  else
-    add({"--no-pictures"});
+  add({"--size", std::to_string(job.width) + "x" + std::to_string(job.height), "--frames",
+       std::to_string(job.frames), "--json", json.string()});
+  if (job.pictures) add({"--out", job.out.string()});
+  if (job.program.chooses_format && job.pictures) add({"--format", "png"});
+  if (job.program.chooses_format && !job.pictures) add({"--no-pictures"});
   if (job.program.paints) add({"--paint", job.paint});
   for (const std::string& scene : job.scenes) add({job.program.scene_option, scene});
   command.environment = environment_of(job.setting, job.folders, kLibrary);

@@ -14,6 +14,8 @@ struct SceneProgram {
   std::string name;          // as house_program finds it
   std::string scene_option;  // before each scene's argument
   bool paints = false;       // understands --paint owners and --paint texels
+  bool chooses_format =
+      true;  // understands --format and --no-pictures; otherwise --out makes it save pictures
 };
 
 struct DrawJob {

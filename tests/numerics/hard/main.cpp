@@ -1,5 +1,6 @@
 // Draws the hard cases with whichever libOSMesa it finds, and lets each say whether its claim holds.
 #include <GL/osmesa.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -19,7 +20,8 @@ namespace fs = std::filesystem;
 struct Options {
   bool list = false, hash = false, judge = false, sweep = false, show = false;
   std::vector<std::string> names;
-  std::string library, out, truth, size = "256x256";
+  std::string library, out, truth, json, size = "256x256";
+  int frames = 0;
   int width = 256, height = 256;
 };
 
@@ -45,18 +47,28 @@ class Context {
 struct Outcome {
   Picture picture;
   std::vector<std::string> complaints;
-  std::string renderer;
+  std::string renderer, version;
+  double cpu_ms = 0;  // processor time of drawing, the making of the triangles included
 };
+
+double processor_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return double(time.tv_sec) * 1e3 + double(time.tv_nsec) * 1e-6;
+}
 
 Outcome perform(const Case& hard_case, const Options& options) {
   Context context(options.width, options.height);
   Stage stage(options.width, options.height, options.sweep, options.show);
+  const double before = processor_ms();
   hard_case.draw(stage);
   glFinish();
   Outcome outcome;
+  outcome.cpu_ms = processor_ms() - before;
   outcome.picture = stage.read();
   outcome.complaints = stage.complaints();
   outcome.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  outcome.version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
   return outcome;
 }
 
@@ -117,8 +129,33 @@ void compare_with_truth(const Case& c, const Picture& picture, const fs::path& f
               e.color, e.depth, e.interior, e.edge_wrong);
 }
 
+// What ref_app's --json says, as far as there is an answer here.
+class Report {
+ public:
+  void add(const Case& c, const Outcome& outcome, const Options& options) {
+    renderer_ = outcome.renderer, version_ = outcome.version;
+    scenes_ +=
+        std::string(scenes_.empty() ? "" : ",\n") + "{\"name\": \"" + c.name + "\", \"frame_cpu_ms\": [";
+    for (int frame = 0; frame < options.frames; ++frame)
+      scenes_ += (frame ? ", " : "") + std::to_string(perform(c, options).cpu_ms);
+    scenes_ += "], \"picture\": ";
+    scenes_ += options.out.empty() ? "null}" : "\"" + std::string(c.name) + ".ppm\"}";
+  }
+  void save(const std::string& path) const {
+    std::ofstream file(path);
+    file << "{\"gl_renderer\": \"" << renderer_ << "\", \"gl_version\": \"" << version_
+         << "\", \"scenes\": [\n"
+         << scenes_ << "\n]}\n";
+    if (!file.flush()) throw std::runtime_error(path + " cannot be written");
+  }
+
+ private:
+  std::string renderer_, version_, scenes_;
+};
+
 int run(const Options& options) {
   const std::vector<const Case*> list = chosen(options);
+  Report report;
   int status = 0;
   for (size_t i = 0; i < list.size(); ++i) {
     const Case& c = *list[i];
@@ -137,9 +174,11 @@ int run(const Options& options) {
       save_picture(outcome.picture, fs::path(options.out) / (std::string(c.name) + ".picture"));
     }
     if (!options.truth.empty()) compare_with_truth(c, outcome.picture, truth_file(options.truth, i));
+    if (!options.json.empty()) report.add(c, outcome, options);
     if (i == 0) std::fprintf(stderr, "drawn by %s\n", outcome.renderer.c_str());
     std::fflush(stdout);
   }
+  if (!options.json.empty()) report.save(options.json);
   return status;
 }
 
@@ -176,6 +215,9 @@ int main(int argc, char** argv) {
   app.add_option("--library", options.library, "the libOSMesa.so.8 to draw with")->check(CLI::ExistingFile);
   app.add_option("--size", options.size, "of the picture, WIDTHxHEIGHT");
   app.add_option("--out", options.out, "folder for NAME.ppm and NAME.picture");
+  app.add_option("--json", options.json, "write what drew, and the times, to this file");
+  app.add_option("--frames", options.frames, "times each case is drawn once more, for --json")
+      ->check(CLI::Range(0, 10000));
   app.add_option("--truth", options.truth,
                  "compare with the frames the oracle left here, drawing the same cases");
   CLI11_PARSE(app, argc, argv);
