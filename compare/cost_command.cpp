@@ -6,6 +6,7 @@
 #include "compare/commands.h"
 #include "compare/cost.h"
 #include "compare/cost_chart.h"
+#include "compare/cost_page.h"
 #include "compare/effects.h"
 #include "compare/html.h"
 
@@ -18,6 +19,7 @@ struct CostCommand {
   CostOptions options;
   bool no_axes = false, no_mesa = false;
   bool effects = false, instructions = false;
+  std::string docs;  // folder of the page; empty: none is written
 };
 
 void tell(const std::string& what) { std::fprintf(stderr, "halfspace cost: %s\n", what.c_str()); }
@@ -28,7 +30,7 @@ void write_files(const CostResult& result, const fs::path& out) {
   const CostScene summary = result.scenes.size() > 1 ? all_scenes(result) : result.scenes.front();
   write_text(out / "cost.svg", scene_chart(summary));
   if (result.scenes.size() > 1) write_text(out / "cost_scenes.svg", scenes_chart(result));
-  if (result.options.axes) write_text(out / "cost_axes.svg", axes_chart(summary));
+  if (result.options.axes) write_text(out / "cost_axes.svg", axes_chart(scene_for_axes(result)));
 }
 
 int effects(const CostCommand& command) {
@@ -40,8 +42,47 @@ int effects(const CostCommand& command) {
   return result.done_while_off == 0 ? kGood : kLimitBroken;
 }
 
+// Small and once: what matters of these is the error, and most of their time is their own making of
+// triangles.
+CostOptions options_of_cases(const CostOptions& options) {
+  CostOptions cases = options;
+  cases.scenes.clear();
+  cases.cases = {"all"};
+  cases.axes = false;
+  cases.rounds = cases.frames = 1;
+  cases.width = cases.height = 128;
+  return cases;
+}
+
+bool has_program(const char* name) {
+  ChildCommand command;
+  command.arguments = {name, "--version"};
+  command.output = "/dev/null";
+  try {
+    return run_child(command).exit_code == 0;
+  } catch (const StartError&) {
+    return false;
+  }
+}
+
+int docs(const CostCommand& command) {
+  const AccuracyMeasured measured{measure_cost(command.options, tell),
+                                  measure_cost(options_of_cases(command.options), tell),
+                                  measure_effects(command.options, has_program("valgrind"), tell)};
+  write_files(measured.scenes, command.options.out);
+  const fs::path folder = command.docs, pictures = folder / "accuracy";
+  write_text(pictures / "cost.svg", scene_chart(all_scenes(measured.scenes)));
+  write_text(pictures / "scenes.svg", scenes_chart(measured.scenes));
+  write_text(pictures / "axes.svg", axes_chart(scene_for_axes(measured.scenes)));
+  write_text(pictures / "effects.svg", effects_chart(measured.effects));
+  write_text(folder / "accuracy.md", accuracy_page(measured));
+  std::printf("%s is written anew\n", (folder / "accuracy.md").c_str());
+  return kGood;
+}
+
 int cost(CostCommand command) {
   try {
+    if (!command.docs.empty()) return docs(command);
     if (command.effects) return effects(command);
     command.options.axes = !command.no_axes;
     command.options.mesa = !command.no_mesa;
@@ -77,6 +118,9 @@ void add_how_to_measure(CLI::App& app, CostCommand& command) {
                "Measure instead what each effect costs on a scene that they are added to one by one");
   app.add_flag("--instructions", command.instructions,
                "With --effects: also count the instructions of a frame, by valgrind");
+  app.add_option("--docs", command.docs,
+                 "Measure everything and write the page accuracy.md, with its pictures, into this folder")
+      ->type_name("DIR");
   app.add_flag("--no-axes", command.no_axes, "The three levels only, no axis of the dial alone");
   app.add_flag("--no-mesa", command.no_mesa, "Leave OSMesa's llvmpipe and softpipe out");
   app.add_option("--rounds", options.rounds, "How often all settings take their turn")
