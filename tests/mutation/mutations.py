@@ -47,7 +47,7 @@ MUTATIONS = [
     # ---- clipping
     Mutation("a new corner depends on the end it is reckoned from", "raster/primitive/clip.cpp",
              "out.push(crossing_corner(*current, d, *previous, d_previous, has_user))",
-             "out.push(crossing_corner(*previous, d_previous, *current, d * 1.0001, has_user))",
+             "out.push(crossing_corner(*previous, d_previous, *current, d * 1.5, has_user))",
              "hard_cases:mesh_near_plane,mesh_user_plane,mesh_guard_band"),
     Mutation("the near plane is at z = 0", "raster/primitive/clip.cpp",
              "{kOutNear, 0, 0, 1, 1, 0}", "{kOutNear, 0, 0, 1, 0, 0}",

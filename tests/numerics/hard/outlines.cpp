@@ -99,8 +99,10 @@ void point_phases(Stage& stage) {
     const auto first = [&](double at) {
       return size % 2 ? 7 - (size - 1) / 2 : int(std::floor(7.5 + at)) - size / 2;
     };
-    const uint8_t* corner = picture.pixel(c.x + first(x), c.y + first(y));
-    if (corner[0] != 255)
+    const auto lit = [&](int more) {
+      return picture.pixel(c.x + first(x) + more, c.y + first(y) + more)[0] == 255;
+    };
+    if (!lit(0) || !lit(size - 1))
       stage.complain("a point of size " + std::to_string(size) + " at phase " + std::to_string(c.i) + ", " +
                      std::to_string(c.j) + " is in the wrong place");
   });
