@@ -221,6 +221,8 @@ class AxesPanel {
     svg_.line(time_place(1), kTop - 8, time_place(1), bottom_, ink::kSoft);
     for (const Tick& tick : error_.ticks(10, "%")) {
       svg_.line(error_.place(tick.value), kTop - 8, error_.place(tick.value), bottom_, ink::kGrid);
+      // The first stands too near to "none".
+      if (tick.value < 2 * kFewestWrong) continue;
       svg_.text(error_.place(tick.value), bottom_ + 16, tick.label, {"middle", ink::kSoft, 10});
     }
     svg_.line(error_.zero_place(), kTop - 8, error_.zero_place(), bottom_, ink::kSoft);
