@@ -9,7 +9,7 @@
 namespace halfspace::compare {
 namespace {
 
-constexpr double kLabelWidth = 170, kPlotWidth = 480, kValueWidth = 90;
+constexpr double kLabelWidth = 190, kPlotWidth = 480, kValueWidth = 90;
 constexpr double kBarHeight = 18, kBarStep = 28, kTop = 56;
 
 std::string number(double value) {
