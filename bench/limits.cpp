@@ -356,7 +356,7 @@ void triangle_looked_at(benchmark::State& state) {
   const auto x = make_array<float>(kVertices), y = make_array<float>(kVertices);
   std::vector<int32_t> indices;
   for (size_t i = 0; i < 3 * kVertices; ++i)
-    indices.push_back(static_cast<int32_t>(i / 3 + i % 3 * 5) % kVertices);
+    indices.push_back(static_cast<int32_t>((i / 3 + i % 3 * 5) % kVertices));
   for (auto _ : state) {
     size_t drawn = 0;
     for (size_t i = 0; i < kVertices; i += kLanes) {

@@ -49,7 +49,7 @@ void require_size(const Image& picture, const Truth& truth) {
 double worst_channel(const Pixel& pixel, const TruePixel& truth, size_t channels) {
   double worst = 0;
   for (size_t c = 0; c < channels; ++c)
-    worst = std::max(worst, std::abs(double{pixel[c]} - double{truth.color[c]}));
+    worst = std::max(worst, std::abs(static_cast<double>(pixel[c]) - static_cast<double>(truth.color[c])));
   return worst;
 }
 
@@ -122,7 +122,8 @@ TruthError error_of(const Image& picture, const Truth& truth, const OwnerFlags& 
   for_each_pixel(truth, [&](int x, int y) {
     const Pixel& pixel = picture.at(x, y);
     const TruePixel& own = truth.at(x, y);
-    for (size_t c = 0; c < channels; ++c) sum += std::abs(double{pixel[c]} - double{own.color[c]});
+    for (size_t c = 0; c < channels; ++c)
+      sum += std::abs(static_cast<double>(pixel[c]) - static_cast<double>(own.color[c]));
     const double worst = worst_channel(pixel, own, channels);
     if (worst > kNearest) ++error.wrong;
     ++error.histogram[bin_of(worst)];
@@ -147,7 +148,7 @@ Offsets texel_offsets(const Image& picture, const Truth& truth, const OwnerFlags
     const Pixel& pixel = picture.at(x, y);
     const TruePixel& own = truth.at(x, y);
     if (!same_owner.empty() && same_owner[picture.index(x, y)] == 0) return;
-    if (double{pixel[2]} < kTextured || double{own.color[2]} < kTextured) return;
+    if (static_cast<double>(pixel[2]) < kTextured || static_cast<double>(own.color[2]) < kTextured) return;
     const double texels = std::max(worst_channel(pixel, own, 2) - 0.5, 0.0) / kLevelsPerTexel;
     ++offsets.pixels;
     offsets.max = std::max(offsets.max, texels);

@@ -29,7 +29,7 @@ GLenum* hint_of(HintState& hint, GLenum target) {
 // The rows of the axes, one after another.
 template <size_t kAxis>
 void read_axis(const Context& context, double* out) {
-  *out = kFirstLevel + int(context.hint.accuracy.*raster::kAccuracyAxes[kAxis].level);
+  *out = kFirstLevel + static_cast<GLenum>(context.hint.accuracy.*raster::kAccuracyAxes[kAxis].level);
 }
 template <size_t kAxis>
 constexpr GetRow kAxisRow{kFirstAxis + kAxis, GetKind::enumeration, 1, read_axis<kAxis>};

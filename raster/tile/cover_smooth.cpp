@@ -127,16 +127,20 @@ double under_arc(double radius, double x) {
 double exact_disc_area(double radius, double x, double y) {
   const double low = std::max(x, -radius), high = std::min(x + 1, radius);
   if (!(low < high)) return 0;
-  double ends[6] = {low, high};
+  double ends[6] = {low, high};  // in order
   int count = 2;
+  const auto insert = [&](double at) {
+    int place = count++;
+    for (; ends[place - 1] > at; --place) ends[place] = ends[place - 1];  // low stays first
+    ends[place] = at;
+  };
   for (const double edge : {y, y + 1}) {
     const double square = radius * radius - edge * edge;
     if (square <= 0) continue;
     for (const double at : {-std::sqrt(square), std::sqrt(square)}) {
-      if (at > low && at < high) ends[count++] = at;
+      if (at > low && at < high) insert(at);
     }
   }
-  std::sort(ends, ends + count);
   double area = 0;
   for (int i = 0; i + 1 < count; ++i) {
     const double from = ends[i], to = ends[i + 1], middle = (from + to) * 0.5;
