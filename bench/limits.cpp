@@ -21,7 +21,7 @@ constexpr int kTextureSize = 256;
 const hn::ScalableTag<float> kF;
 const hn::ScalableTag<int32_t> kI;
 const hn::ScalableTag<uint32_t> kU;
-const hn::ScalableTag<uint8_t> kU8;
+[[maybe_unused]] const hn::ScalableTag<uint8_t> kU8;
 using VF = hn::Vec<decltype(kF)>;
 using VI = hn::Vec<decltype(kI)>;
 using VU = hn::Vec<decltype(kU)>;

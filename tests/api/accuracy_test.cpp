@@ -1,6 +1,7 @@
 // GL_HALFSPACE_accuracy and glHint: what they set is what is drawn.
 #include <cstdlib>
 #include <functional>
+#include <initializer_list>
 
 #include "gl/include/GL/halfspace.h"
 #include "tests/api/osmesa_context.h"
@@ -66,7 +67,9 @@ void draw_scene() {
   glDisable(GL_LIGHTING);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  for (const GLenum smooth : {GL_POINT_SMOOTH, GL_LINE_SMOOTH, GL_POLYGON_SMOOTH}) glEnable(smooth);
+  for (const GLenum smooth :
+       std::initializer_list<GLenum>{GL_POINT_SMOOTH, GL_LINE_SMOOTH, GL_POLYGON_SMOOTH})
+    glEnable(smooth);
   glPointSize(9.5f);
   glLineWidth(2.5f);
   glColor4f(1, 0.9f, 0.2f, 0.8f);
@@ -128,7 +131,8 @@ TEST(AccuracyPictures, FastestIsDraftNicestIsExactAndDontCareIsTheContexts) {
 TEST(AccuracyPictures, SmoothHintsAreForTheirKindOfShape) {
   const auto smooth = [](GLenum mode) {
     return [mode] {
-      for (const GLenum hint : {GL_POINT_SMOOTH_HINT, GL_LINE_SMOOTH_HINT, GL_POLYGON_SMOOTH_HINT})
+      for (const GLenum hint :
+           std::initializer_list<GLenum>{GL_POINT_SMOOTH_HINT, GL_LINE_SMOOTH_HINT, GL_POLYGON_SMOOTH_HINT})
         glHint(hint, mode);
     };
   };
@@ -136,7 +140,8 @@ TEST(AccuracyPictures, SmoothHintsAreForTheirKindOfShape) {
   EXPECT_EQ(picture("standard", smooth(GL_FASTEST)), draft);
   EXPECT_EQ(picture("standard", smooth(GL_NICEST)), picture("coverage=exact", kNothing));
   EXPECT_EQ(picture("coverage=draft", smooth(GL_DONT_CARE)), draft);
-  for (const GLenum hint : {GL_POINT_SMOOTH_HINT, GL_LINE_SMOOTH_HINT, GL_POLYGON_SMOOTH_HINT}) {
+  for (const GLenum hint :
+       std::initializer_list<GLenum>{GL_POINT_SMOOTH_HINT, GL_LINE_SMOOTH_HINT, GL_POLYGON_SMOOTH_HINT}) {
     const auto one = picture("standard", [hint] { glHint(hint, GL_FASTEST); });
     EXPECT_NE(one, standard) << hint;
     EXPECT_NE(one, draft) << hint;

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -145,11 +146,14 @@ void read_depth_and_stencil(GLsizei width, GLsizei height, std::vector<float>& d
   function<decltype(glEnd)>("glEnd")();
   function<decltype(glRenderMode)>("glRenderMode")(GL_RENDER);
   const auto store = function<decltype(glPixelStorei)>("glPixelStorei");
-  for (GLenum name : {GL_PACK_SWAP_BYTES, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS})
+  for (const GLenum name : std::initializer_list<GLenum>{GL_PACK_SWAP_BYTES, GL_PACK_ROW_LENGTH,
+                                                         GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS})
     store(name, 0);
   store(GL_PACK_ALIGNMENT, 1);
   const auto transfer = function<decltype(glPixelTransferf)>("glPixelTransferf");
-  for (GLenum name : {GL_MAP_STENCIL, GL_INDEX_SHIFT, GL_INDEX_OFFSET, GL_DEPTH_BIAS}) transfer(name, 0);
+  for (const GLenum name :
+       std::initializer_list<GLenum>{GL_MAP_STENCIL, GL_INDEX_SHIFT, GL_INDEX_OFFSET, GL_DEPTH_BIAS})
+    transfer(name, 0);
   transfer(GL_DEPTH_SCALE, 1);
   const auto read = function<decltype(glReadPixels)>("glReadPixels");
   read(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());

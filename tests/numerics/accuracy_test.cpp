@@ -4,6 +4,7 @@
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "tests/oracle/fragment.h"
 #include "tests/oracle/triangle.h"
@@ -14,6 +15,9 @@
 
 namespace halfspace::test {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity(),
+                 kNan = std::numeric_limits<double>::quiet_NaN();
 
 using namespace raster;
 #define HWY_INLINE inline
@@ -253,8 +257,8 @@ TEST(ExactMath, ExponentialIsWithinAnUlp) {
   }
   EXPECT_LE(worst, 1);
   EXPECT_EQ(ExactExpMinus(0), 1);
-  EXPECT_EQ(ExactExpMinus(INFINITY), 0);
-  EXPECT_EQ(ExactExpMinus(NAN), 0);
+  EXPECT_EQ(ExactExpMinus(kInfinity), 0);
+  EXPECT_EQ(ExactExpMinus(kNan), 0);
 }
 
 TEST(ExactMath, LogarithmIsWithinTwoUlpsOfItsSizeAndExactAtPowersOfTwo) {
@@ -284,7 +288,7 @@ TEST(ExactMath, PowerIsWithinAnUlpOfFloat) {
   EXPECT_LE(worst, 1e-12);
   EXPECT_EQ(ExactPower(0, 0), 1);
   EXPECT_EQ(ExactPower(0, 2), 0);
-  EXPECT_EQ(ExactPower(NAN, 2), 0);
+  EXPECT_EQ(ExactPower(kNan, 2), 0);
   EXPECT_EQ(ExactPower(0.25, 2), 0.0625);
 }
 

@@ -63,7 +63,8 @@ void light(const raster::DrawState& state, const raster::MaterialPair& given, co
   const LitVertex lit =
       light_vertex(state, materials, at, {real(normal[0]), real(normal[1]), real(normal[2])});
   const Real4& back = state.lighting.two_sided ? lit.back : lit.front;
-  for (size_t k = 0; k < 4; ++k) out.corner.value[kRed + k] = lit.front[k], out.back[k] = back[k];
+  for (size_t k = 0; k < 4; ++k)
+    out.corner.value[kRed + k] = static_cast<Wide>(lit.front[k]), out.back[k] = static_cast<Wide>(back[k]);
   out.doubtful = lit.margin < 1e-5L;
 }
 
@@ -74,7 +75,7 @@ void make_coords(const raster::DrawState& state, const Float4& position, const F
   if (state.tex_gen.any())
     coord = generate(state, reals(position), {real(normal[0]), real(normal[1]), real(normal[2])}, coord);
   std::array<Wide, 4> v;
-  for (size_t k = 0; k < 4; ++k) v[k] = bounded(coord[k]);
+  for (size_t k = 0; k < 4; ++k) v[k] = bounded(static_cast<Wide>(coord[k]));
   if (!state.texture.matrix_is_identity) v = times(state.texture.matrix, v);
   for (size_t k = 0; k < 4; ++k) corner.value[kCoordS + k] = bounded(v[k]);
 }

@@ -189,7 +189,8 @@ ShadedPoint Device::shade_point(const DrawState& state, const VertexBatch& batch
   const auto number = [](oracle::Wide v) { return static_cast<double>(v); };
   const oracle::Place<oracle::Wide> at = oracle::place_of(c, state.viewport);
   point.x = number(at.x / 256), point.y = number(at.y / 256), point.w = number(c.w);
-  const oracle::Wide near = state.viewport.depth_near, far = state.viewport.depth_far;
+  const auto near = static_cast<oracle::Wide>(state.viewport.depth_near);
+  const auto far = static_cast<oracle::Wide>(state.viewport.depth_far);
   point.z = number(
       oracle::held((far - near) / 2 * (c.z / c.w) + (near + far) / 2, oracle::wide(0), oracle::wide(1)));
   point.eye_distance = number(c.value[oracle::kFogDistance]);
