@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "compare/cost_scenes.h"
 #include "compare/libraries.h"
@@ -52,10 +52,12 @@ std::string whole_file(const fs::path& path) {
   return text.str();
 }
 
+// The number that ends right before `words`, as in "12 draws"; 0 if there is none.
 uint64_t number_before(const std::string& line, const char* words) {
-  std::smatch found;
-  const std::regex pattern(std::string("([0-9]+) ") + words);
-  return std::regex_search(line, found, pattern) ? std::stoull(found[1]) : 0;
+  const size_t end = line.find(std::string(" ") + words);
+  if (end == std::string::npos) return 0;
+  const size_t start = line.find_last_not_of("0123456789", end == 0 ? 0 : end - 1) + 1;
+  return start < end ? std::stoull(line.substr(start, end - start)) : 0;
 }
 
 Setting metered_setting() {
@@ -164,10 +166,11 @@ class EffectsRun {
     command.output = options_.out / "effects" / "callgrind.txt";
     const ChildResult child = run_child(command);
     const std::string log = whole_file(command.output);
-    std::smatch found;
-    if (child.exit_code != 0 || !std::regex_search(log, found, std::regex("Collected : ([0-9]+)")))
+    constexpr std::string_view kBefore = "Collected : ";
+    const size_t at = log.find(kBefore);
+    if (child.exit_code != 0 || at == std::string::npos)
       throw std::runtime_error("valgrind could not count the instructions of " + name + ":\n" + log);
-    return std::stod(found[1]);
+    return std::stod(log.substr(at + kBefore.size()));
   }
 
   void take(std::vector<EffectStep> steps) {
