@@ -4,6 +4,7 @@
 #include "compare/bar_chart.h"
 #include "compare/bench_scenes.h"
 #include "compare/difference_text.h"
+#include "compare/statistics_json.h"
 
 namespace halfspace::compare {
 namespace {
@@ -26,21 +27,13 @@ std::string text_row(const BenchRow& row) {
   return line;
 }
 
-nlohmann::json json_of(const Summary& s) {
-  return {{"median", s.median},
-          {"lowest", s.lowest},
-          {"highest", s.highest},
-          {"spread", s.spread},
-          {"count", s.count}};
-}
-
 nlohmann::json json_of(const std::vector<BenchRow>& rows) {
   nlohmann::json list = nlohmann::json::array();
   for (const BenchRow& row : rows) {
     nlohmann::json entry{{"what", row.what},
                          {"unit", row.unit},
-                         {"ours", json_of(row.ours)},
-                         {"theirs", json_of(row.theirs)},
+                         {"ours", to_json(row.ours)},
+                         {"theirs", to_json(row.theirs)},
                          {"ratio", row.ratio},
                          {"target", row.target},
                          {"higher_is_better", row.higher_is_better},

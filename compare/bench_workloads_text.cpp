@@ -4,6 +4,7 @@
 #include "compare/bar_chart.h"
 #include "compare/bench_workloads.h"
 #include "compare/difference_text.h"
+#include "compare/statistics_json.h"
 
 namespace halfspace::compare {
 namespace {
@@ -55,16 +56,8 @@ std::string heading() {
   return line;
 }
 
-nlohmann::json json_of(const Summary& s) {
-  return {{"median", s.median},
-          {"lowest", s.lowest},
-          {"highest", s.highest},
-          {"spread", s.spread},
-          {"count", s.count}};
-}
-
 nlohmann::json json_of(const FrameTime& time) {
-  return {{"cpu_ms", json_of(time.cpu_ms)}, {"wall_ms", json_of(time.wall_ms)}};
+  return {{"cpu_ms", to_json(time.cpu_ms)}, {"wall_ms", to_json(time.wall_ms)}};
 }
 
 nlohmann::json json_of(const WorkloadRow& row) {

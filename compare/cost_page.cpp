@@ -1,19 +1,12 @@
 #include "compare/cost_page.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "compare/cost_scenes.h"
+#include "compare/formatted.h"
 
 namespace halfspace::compare {
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[600];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 // "0", "0.0010", "9.4"
 std::string percent(double value) {

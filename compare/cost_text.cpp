@@ -1,18 +1,11 @@
 // The result of `halfspace cost` as a table, CSV and JSON.
-#include <cstdio>
 
 #include "compare/cost.h"
 #include "compare/difference_text.h"
+#include "compare/formatted.h"
 
 namespace halfspace::compare {
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[400];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 std::string error_columns(const std::optional<TruthError>& error) {
   if (!error) return formatted("%10s %9s %8s %8s %8s\n", "-", "-", "-", "-", "-");

@@ -1,21 +1,14 @@
 // The result of `halfspace cost --effects` as a table, JSON and SVG.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "compare/chart_axis.h"
 #include "compare/effects.h"
+#include "compare/formatted.h"
 #include "compare/svg.h"
 
 namespace halfspace::compare {
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[400];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
