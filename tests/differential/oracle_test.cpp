@@ -6,9 +6,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
+#include <optional>
 
 #include "tests/differential/true_frame.h"
+#include "tests/support/temporary_folder.h"
 
 namespace halfspace::differential {
 namespace {
@@ -19,12 +20,10 @@ constexpr double kPi = 3.14159265358979323846;
 class Oracle : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    std::string name = (std::filesystem::temp_directory_path() / "halfspace-oracle-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    directory = name;
-    setenv("HALFSPACE_TRUTH", name.c_str(), 1);
+    folder.emplace();
+    setenv("HALFSPACE_TRUTH", folder->path().c_str(), 1);
   }
-  static void TearDownTestSuite() { std::filesystem::remove_all(directory); }
+  static void TearDownTestSuite() { folder.reset(); }
 
   void TearDown() override { close(); }
 
@@ -50,8 +49,8 @@ class Oracle : public testing::Test {
   TrueFrame shown() {
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
     glFinish();
-    const TrueFrame frame = read_last_frame(directory.string());
-    remove_frames(directory.string());
+    const TrueFrame frame = read_last_frame(folder->path().string());
+    remove_frames(folder->path().string());
     return frame;
   }
   static void fill(double x0, double y0, double x1, double y1, double z = 0) {
@@ -72,14 +71,14 @@ class Oracle : public testing::Test {
     return shown().at(0, 0).level;
   }
 
-  static std::filesystem::path directory;
+  static std::optional<test::TemporaryFolder> folder;
 
  private:
   OSMesaContext context_ = nullptr;
   std::vector<uint8_t> pixels_;
 };
 
-std::filesystem::path Oracle::directory;
+std::optional<test::TemporaryFolder> Oracle::folder;
 
 void expect_level(const std::array<float, 4>& level, std::array<double, 4> expected, double error = 1e-4) {
   for (size_t k = 0; k < 4; ++k)

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "tests/differential/true_frame.h"
+#include "tests/support/temporary_folder.h"
 
 namespace halfspace::differential {
 namespace {
@@ -142,11 +143,8 @@ int run(int argc, char** argv) {
   app.add_option("program", options.program, "The program and its arguments")->required();
   app.positionals_at_end();
   CLI11_PARSE(app, argc, argv);
-  std::string folder = (fs::temp_directory_path() / "halfspace-truth-XXXXXX").string();
-  if (!mkdtemp(folder.data())) throw std::runtime_error("cannot make a folder for the truth");
-  const bool good = check(options, folder);
-  fs::remove_all(folder);
-  return good ? 0 : 1;
+  const test::TemporaryFolder folder;
+  return check(options, folder.path()) ? 0 : 1;
 }
 
 }  // namespace

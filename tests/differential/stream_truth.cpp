@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
 
 #include "tests/differential/true_frame.h"
 #include "tests/fuzz/maker.h"
 #include "tests/fuzz/renderer.h"
 #include "tests/fuzz/shrink.h"
+#include "tests/support/temporary_folder.h"
 
 namespace halfspace::differential {
 namespace {
@@ -152,11 +152,8 @@ int run(int argc, char** argv) {
   app.add_option("--tries", options.most_tries,
                  "Streams to try while one is cut down; 0: it is printed whole");
   CLI11_PARSE(app, argc, argv);
-  std::string directory = (std::filesystem::temp_directory_path() / "halfspace-truth-XXXXXX").string();
-  if (!mkdtemp(directory.data())) throw std::runtime_error("cannot make a folder for the truth");
-  const bool good = Checker(options, directory).run();
-  std::filesystem::remove_all(directory);
-  return good ? 0 : 1;
+  const test::TemporaryFolder folder;
+  return Checker(options, folder.path().string()).run() ? 0 : 1;
 }
 
 }  // namespace
