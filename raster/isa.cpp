@@ -19,9 +19,13 @@ constexpr IsaLevel kLevels[] = {
     {Isa::neon, "neon"},
 #else
     {Isa::scalar, "scalar"},
-#if defined(__x86_64__)
+#if HALFSPACE_WITH_SSE4
     {Isa::sse4, "sse4"},
+#endif
+#if HALFSPACE_WITH_AVX2
     {Isa::avx2, "avx2"},
+#endif
+#if HALFSPACE_WITH_AVX512
     {Isa::avx512, "avx512"},
 #endif
 #endif

@@ -2,6 +2,7 @@
 //
 // A source with SIMD in it is compiled once a level by Highway's foreach_target.h. raster/isa.cpp says which
 // level's function to take:
+// HALFSPACE_WITH_*: the levels of this build (CMake's HALFSPACE_LEVELS); the scalar one is always there.
 //   HWY_ONCE part:  ShadeFunction select_shade() { HALFSPACE_SELECT_FUNCTION(ShadeVertices) }
 #pragma once
 
@@ -17,14 +18,32 @@ Isa current_isa();
 // The body of a function after the HWY_ONCE guard: returns N_<level>::EXPRESSION for the level in use, say the value
 // of a call (`ShadeVertices()`) or, with HALFSPACE_SELECT_FUNCTION, the address of a function.
 #if defined(__x86_64__)
+#if HALFSPACE_WITH_AVX512
+#define HALFSPACE_CASE_AVX512(PREFIX, EXPRESSION) \
+  case ::halfspace::raster::Isa::avx512:          \
+    return PREFIX N_AVX3::EXPRESSION;
+#else
+#define HALFSPACE_CASE_AVX512(PREFIX, EXPRESSION)
+#endif
+#if HALFSPACE_WITH_AVX2
+#define HALFSPACE_CASE_AVX2(PREFIX, EXPRESSION) \
+  case ::halfspace::raster::Isa::avx2:          \
+    return PREFIX N_AVX2::EXPRESSION;
+#else
+#define HALFSPACE_CASE_AVX2(PREFIX, EXPRESSION)
+#endif
+#if HALFSPACE_WITH_SSE4
+#define HALFSPACE_CASE_SSE4(PREFIX, EXPRESSION) \
+  case ::halfspace::raster::Isa::sse4:          \
+    return PREFIX N_SSE4::EXPRESSION;
+#else
+#define HALFSPACE_CASE_SSE4(PREFIX, EXPRESSION)
+#endif
 #define HALFSPACE_SELECT_LEVEL(PREFIX, EXPRESSION) \
   switch (::halfspace::raster::current_isa()) {    \
-    case ::halfspace::raster::Isa::avx512:         \
-      return PREFIX N_AVX3::EXPRESSION;            \
-    case ::halfspace::raster::Isa::avx2:           \
-      return PREFIX N_AVX2::EXPRESSION;            \
-    case ::halfspace::raster::Isa::sse4:           \
-      return PREFIX N_SSE4::EXPRESSION;            \
+    HALFSPACE_CASE_AVX512(PREFIX, EXPRESSION)      \
+    HALFSPACE_CASE_AVX2(PREFIX, EXPRESSION)        \
+    HALFSPACE_CASE_SSE4(PREFIX, EXPRESSION)        \
     default:                                       \
       return PREFIX N_SCALAR::EXPRESSION;          \
   }

@@ -20,12 +20,6 @@ import time
 from mutations import MUTATIONS
 
 HARD = "hard_cases"
-# The copy is built for the scalar level alone: every level is compiled from the same bodies, and a mutation is done in a
-# quarter of the time.
-PREPARATION = [
-    ("raster/isa.h", "#if defined(__x86_64__)\n#define HALFSPACE_SELECT_LEVEL", "#if 0\n#define HALFSPACE_SELECT_LEVEL"),
-    ("raster/CMakeLists.txt", "HWY_DISABLED_TARGETS=(", "HWY_DISABLED_TARGETS=(HWY_SSE4|HWY_AVX2|HWY_AVX3|"),
-]
 
 
 def program_of(mutation):
@@ -48,9 +42,6 @@ def problems(source):
                     yield f"{mutation.name}: there is no hard case {case}"
         elif not list(source.glob(f"tests/*/{program}.cpp")):
             yield f"{mutation.name}: there is no test {program}"
-    for file, text, _ in PREPARATION:
-        if (source / file).read_text().count(text) != 1:
-            yield f"{file} is no longer as the preparation of the copy wants it"
     names = [mutation.name for mutation in MUTATIONS]
     for name in sorted(set(n for n in names if names.count(n) > 1)):
         yield f"{name}: is there twice"
@@ -64,18 +55,15 @@ def tracked(source):
 def copy_tree(source, tree):
     """Only what differs is written, so that the build stays valid."""
     names = tracked(source)
-    prepared = {file: (source / file).read_text().replace(text, new).encode() for file, text, new in PREPARATION}
     for old in [p for p in tree.rglob("*") if p.is_file()] if tree.exists() else []:
         if old.relative_to(tree).as_posix() not in names:
             old.unlink()
     for name in names:
         target = tree / name
-        wanted = prepared.get(name) or (source / name).read_bytes()
-        if target.exists() and target.read_bytes() == wanted:
+        if target.exists() and target.read_bytes() == (source / name).read_bytes():
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(source / name, target)
-        target.write_bytes(wanted)
 
 
 class Workshop:
@@ -83,9 +71,10 @@ class Workshop:
         self.tree, self.build = work / "tree", work / "build"
         copy_tree(source, self.tree)
         self.env = dict(os.environ, CCACHE_BASEDIR=str(self.tree), CCACHE_NOHASHDIR="1")
-        # -O1: half of a mutation's time is compiling.
+        # Half of a mutation's time is compiling: -O1, and the scalar level alone, since every level is compiled from
+        # the same bodies.
         subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], check=True, env=self.env, stdout=subprocess.DEVNULL)
+                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DHALFSPACE_LEVELS="], check=True, env=self.env, stdout=subprocess.DEVNULL)
 
     def compile(self, program):
         targets = [HARD, "halfspace_libosmesa"] if program == HARD else [program]
