@@ -2,8 +2,8 @@
 //
 // A source with SIMD in it is compiled once a level by Highway's foreach_target.h. raster/isa.cpp says which
 // level's function to take:
-// HALFSPACE_WITH_*: the levels of this build (CMake's HALFSPACE_LEVELS); the scalar one is always there.
 //   HWY_ONCE part:  ShadeFunction select_shade() { HALFSPACE_SELECT_FUNCTION(ShadeVertices) }
+// HALFSPACE_WITH_*: the levels of this build (CMake's HALFSPACE_LEVELS); the scalar one is always there.
 #pragma once
 
 namespace halfspace::raster {
