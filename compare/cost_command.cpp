@@ -138,27 +138,26 @@ void add_how_to_measure(CLI::App& app, CostCommand& command) {
 
 }  // namespace
 
-void add_cost_command(CLI::App& app, int& status) {
+void add_cost_command(CLI::App& app, const std::vector<std::string>& program, int& status) {
   auto command = std::make_shared<CostCommand>();
   CLI::App* cost_app = app.add_subcommand(
       "cost",
-      "Time each step of accuracy, and count the pixels it gets right: halfspace cost [OPTIONS] [-- PROGRAM "
-      "[ARGUMENTS...]]");
+      "Time each step of accuracy, and count the pixels it gets right: halfspace cost [OPTIONS] [-- PROGRAM [ARGUMENTS...]]");
   cost_app->footer(
-      "Time is the processor's, on one thread; the truth is drawn by the oracle, a slow renderer of the "
-      "tests, and "
-      "kept in OUT/truth.\nExit status: 0 measured, whatever came out; 1 an effect that was off did "
-      "something (--effects); 2 something could not be drawn.");
+      "Time is the processor's, on one thread; the truth is drawn by the oracle, a slow renderer of the tests, and\n"
+      "kept in OUT/truth. PROGRAM is run again and again, so it has to end by itself and draw the same each time: record\n"
+      "one that does not with `apitrace trace`, and give `-- glretrace -b FILE.trace`.\n"
+      "Exit status: 0 measured, whatever came out; 1 an effect that was off did something (--effects); 2 something\n"
+      "could not be drawn.");
   add_what_to_draw(*cost_app, command->options);
   add_how_to_measure(*cost_app, *command);
   cost_app->prefix_command();
-  cost_app->callback([command, cost_app, &status] {
+  cost_app->callback([command, cost_app, &program, &status] {
     command->options.program = cost_app->remaining();
-    if (!command->options.program.empty() && command->options.program.front() == "--")
-      command->options.program.erase(command->options.program.begin());
-    else if (!command->options.program.empty() && command->options.program.front().starts_with("-"))
+    if (!command->options.program.empty() && command->options.program.front().starts_with("-"))
       throw CLI::ValidationError(command->options.program.front(),
                                  "is no option of ours; see halfspace cost --help");
+    command->options.program.insert(command->options.program.end(), program.begin(), program.end());
     status = cost(*command);
   });
 }

@@ -86,18 +86,17 @@ nlohmann::json json_of(const CostScene& scene) {
 }  // namespace
 
 std::string to_text(const CostResult& result) {
-  std::string text = "ours:   " + result.our_renderer + ", " + result.our_version + "\ntheirs: Mesa, " +
-                     result.mesa_version + "\ntruth:  " + result.oracle + "\n";
+  std::string text;
+  if (result.options.program.empty())  // which says nothing of the library it found
+    text = "ours:   " + result.our_renderer + ", " + result.our_version + "\ntheirs: Mesa, " + result.mesa_version +
+           "\ntruth:  " + result.oracle + "\n";
   for (const CostScene& scene : result.scenes) text += text_of(scene);
   if (result.scenes.size() > 1) text += text_of(all_scenes(result));
-  return text +
-         "\nms: processor time of a frame; of std: to standard in the same round. wrong: pixels with a byte "
-         "that is "
-         "not\nthe nearest to the truth. max, mean: levels off the truth, max where the owner is right; 0.25 "
-         "is the "
-         "mean\nthat rounding to bytes comes to. coverage: pixels another primitive owns. texels: the "
-         "farthest a "
-         "texture\nwas read from where it should have been.\n";
+  return text + "\nms: processor time of a frame" + (result.options.program.empty() ? "" : " (here: of the whole run)") +
+         "; of std: to standard in the same round. wrong: pixels with a byte\n"
+         "that is not the nearest to the truth. max, mean: levels off the truth, max where the owner is right; 0.25\n"
+         "is the mean that rounding to bytes comes to. coverage: pixels another primitive owns. texels: the\n"
+         "farthest a texture was read from where it should have been.\n";
 }
 
 std::string to_csv(const CostResult& result) {

@@ -89,7 +89,7 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& status) {
+void add_run_command(CLI::App& app, const std::vector<std::string>& program, int& status) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command =
       app.add_subcommand("run", "Run a program on our libGL: halfspace run [OPTIONS] PROGRAM [ARGUMENTS...]");
@@ -110,8 +110,9 @@ void add_run_command(CLI::App& app, int& status) {
   command->add_option("--library", options->library, "Folder that holds libGL.so.1")->type_name("DIR");
   // Everything from PROGRAM on is the program's, options too.
   command->prefix_command();
-  command->callback([options, command, &status] {
+  command->callback([options, command, &program, &status] {
     options->program = command->remaining();
+    options->program.insert(options->program.end(), program.begin(), program.end());
     status = run(*options);
   });
 }

@@ -152,6 +152,12 @@ class Run(Case):
         done = self.start(7, "sh", "-c", 'echo "$0|$1|$2"; exit 7', "--capture", "a b", "-x")
         self.assertEqual(done.stdout, "--capture|a b|-x\n")
 
+    def test_two_dashes_end_our_options(self):
+        done = self.start(7, "--", "sh", "-c", 'echo "$0|$1|$2"; exit 7', "--capture", "--", "-x")
+        self.assertEqual(done.stdout, "--capture|--|-x\n")
+        self.start(0, "--stats", "--", "true")
+        self.start(2, "--")
+
     def test_our_folder_comes_first(self):
         done = self.start(0, "sh", "-c", "echo $LD_LIBRARY_PATH", LD_LIBRARY_PATH="/before:/that")
         self.assertEqual(done.stdout, f"{self.library}:/before:/that\n")

@@ -2,7 +2,7 @@
 
 The oracle judges, so what is asserted of the pixels is what the numeric contract promises of standard and exact.
 
-usage: cost_test.py HALFSPACE
+usage: cost_test.py HALFSPACE REF_APP_OSMESA
 """
 
 import csv
@@ -13,7 +13,7 @@ import sys
 import tempfile
 import unittest
 
-HALFSPACE = ""
+HALFSPACE = REF_APP = ""
 
 
 def run(*arguments):
@@ -59,6 +59,24 @@ class Cost(unittest.TestCase):
         self.assertEqual(result["idle"]["fragments_by_stage"], result["steps"][0]["fragments_by_stage"])
         self.assertEqual([step["name"] for step in result["steps"]][-1], "alpha_test")
 
+    def test_a_program(self):
+        done = run("--no-axes", "--no-mesa", "--frame", 1, "--rounds", 1, "--out", self.out, "--", REF_APP, "--scene", 4,
+                   "--size", "64x48", "--frames", 2, "--no-pictures")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        [scene] = json.loads((self.out / "cost.json").read_text())["scenes"]
+        points = {point["setting"]: point for point in scene["points"]}
+        self.assertEqual(set(points), {"draft", "standard", "exact"})
+        for level, limit in ("standard", 0.55), ("exact", 0.5001):
+            self.assertEqual(points[level]["error"]["pixels"], 64 * 48)
+            self.assertLessEqual(points[level]["error"]["max_levels"], limit)
+        self.assertGreater(points["draft"]["error"]["wrong"], 0)
+
+    def test_a_program_that_shows_too_few_frames(self):
+        done = run("--no-axes", "--no-mesa", "--frame", 9, "--rounds", 1, "--out", self.out, "--", REF_APP, "--scene", 4,
+                   "--size", "64x48", "--frames", 2, "--no-pictures")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("there is no frame 9", done.stderr)
+
     def test_a_scene_there_is_not(self):
         done = run("--scenes", "9", "--out", self.out)
         self.assertEqual(done.returncode, 2)
@@ -66,5 +84,5 @@ class Cost(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    HALFSPACE = sys.argv.pop(1)
+    HALFSPACE, REF_APP = sys.argv.pop(1), sys.argv.pop(1)
     unittest.main()
