@@ -162,6 +162,13 @@ class Run(Case):
         done = self.start(0, "sh", "-c", "echo $LD_LIBRARY_PATH", LD_LIBRARY_PATH="/before:/that")
         self.assertEqual(done.stdout, f"{self.library}:/before:/that\n")
 
+    def test_what_to_look_at_is_handed_on(self):
+        for option, variable, value in (("--stats", "HALFSPACE_STATS", "1"), ("--stats=draws", "HALFSPACE_STATS", "draws"),
+                                        ("--view=tiles", "HALFSPACE_VIEW", "tiles")):
+            done = self.start(0, option, "--", "sh", "-c", f"echo ${variable}")
+            self.assertEqual(done.stdout, value + "\n")
+        self.start(2, "--view", "sideways", "true")
+
     def test_missing_things_are_named(self):
         self.start(127, "halfspace-no-such-program")
         self.start(126, "/etc/passwd")
