@@ -9,6 +9,10 @@ namespace {
 
 constexpr size_t kMaxBytes = size_t{1} << 18;  // shaded vertices
 constexpr size_t kMaxPrimitives = size_t{1} << 13;
+// A draw brings some five kilobytes, of its state for the most part: more draws than these are not in the
+// cache any more when their tiles are drawn. Measured best of 32 to 512, and 1.3 times as fast as thousands.
+constexpr size_t kMaxDraws = 128;
+constexpr size_t kProgramsLookedAt = 32;  // the last ones; to make one is as fast as to look at some more
 constexpr size_t kMaxTextureBytes = size_t{128} << 20;  // of several textures; a single one may be larger
 
 bool same_layout(const VertexLayout& a, const VertexLayout& b) {
@@ -52,13 +56,22 @@ void Batch::note_texture(const TextureView& view) {
 
 const PipelineProgram& Batch::program_for(const std::shared_ptr<const DrawState>& state,
                                           const VertexLayout& layout, ColorFormat format, bool fuse) {
-  if (programs_.empty() || program_state_ != state || !same_layout(program_layout_, layout)) {
-    build_program(*state, layout, format, fuse, codes_, programs_.emplace_back());
-    program_state_ = state;
-    program_layout_ = layout;
-    if (state->texture.view != nullptr) note_texture(*state->texture.view);
+  const TextureView* view = state->texture.view.get();
+  const size_t first = views_.size() < kProgramsLookedAt ? 0 : views_.size() - kProgramsLookedAt;
+  for (size_t i = views_.size(); i-- > first;) {
+    if (views_[i] != view) continue;
+    const Entry& entry = programs_[i];
+    const bool same_state = entry.state == state || have_same_program(*entry.state, *state);
+    if (same_state && entry.format == format && same_layout(entry.layout, layout)) return entry.program;
   }
-  return programs_.back();
+  Entry& entry = programs_.emplace_back();
+  build_program(*state, layout, format, fuse, codes_, entry.program);
+  entry.state = state;
+  entry.layout = layout;
+  entry.format = format;
+  views_.push_back(view);
+  if (view != nullptr) note_texture(*view);
+  return entry.program;
 }
 
 bool Batch::is_covered_by(const ClearCommand& command, const Framebuffer::Impl& target) const {
@@ -70,7 +83,8 @@ bool Batch::is_full(uint32_t scale) const {
   size_t primitives = 0;
   for (const Segment* segment : pending_) primitives += segment->primitives.size();
   const bool many_texels = textures_.size() > 1 && texture_bytes_ > kMaxTextureBytes;
-  return arena.bytes_in_use() > kMaxBytes * scale || many_texels || primitives > kMaxPrimitives * scale;
+  return arena.bytes_in_use() > kMaxBytes * scale || many_texels || primitives > kMaxPrimitives * scale ||
+         draws.size() >= kMaxDraws;
 }
 
 void Batch::deal_tiles(const Framebuffer::Impl& target, bool all, int workers) {
@@ -108,7 +122,7 @@ void Batch::discard() {
   draws.clear();
   images.clear();
   programs_.clear();
-  program_state_.reset();
+  views_.clear();
   textures_.clear();
   texture_bytes_ = 0;
   arena.reset();

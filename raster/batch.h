@@ -10,6 +10,7 @@
 #include "raster/fragment/program.h"
 #include "raster/primitive/pixel_rect.h"
 #include "raster/primitive/segment.h"
+#include "raster/recycled.h"
 
 namespace halfspace::raster {
 
@@ -21,7 +22,7 @@ class Batch {
   Segment& new_segment(const Framebuffer::Impl& target);
   Segment& open_segment(const Framebuffer::Impl& target);
   const std::vector<Segment*>& segments() const { return pending_; }
-  // What draws of this state and layout go through; remembers the last one.
+  // What draws of this state and layout go through; draws that differ in their vertices only share it.
   const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state,
                                      const VertexLayout& layout, ColorFormat format, bool fuse);
   // Notes what a draw put into this batch may change.
@@ -40,7 +41,7 @@ class Batch {
   void count_into(DeviceStatistics& statistics) const;
   void discard();
 
-  std::deque<DrawRecord> draws;
+  Recycled<DrawRecord> draws;
   std::deque<PixelImage> images;
   Arena arena;
   std::vector<uint32_t> tiles, ends;
@@ -53,10 +54,16 @@ class Batch {
   bool last_is_open_ = false;
   uint8_t targets_ = 0;   // colour planes drawn to
   bool stencil_ = false;  // whether the stencil plane may be written
-  std::deque<PipelineProgram> programs_;
+  // A program and what it was made for.
+  struct Entry {
+    std::shared_ptr<const DrawState> state;
+    VertexLayout layout;
+    ColorFormat format{};
+    PipelineProgram program;
+  };
+  Recycled<Entry> programs_;
+  std::vector<const TextureView*> views_;  // of the programs, in their order: most look-ups end here
   CodeCache codes_;
-  std::shared_ptr<const DrawState> program_state_;
-  VertexLayout program_layout_;
   // Textures that draws hold on to, by level 0; the program that replaced or deleted one cannot free it.
   std::vector<const TextureLevel*> textures_;
   size_t texture_bytes_ = 0;

@@ -97,6 +97,9 @@ struct PipelineProgram : ProgramCode {
 // Which stages the state calls for, drawing on its colour targets. `variant`: bits of Variant.
 StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorFormat format, unsigned variant);
 
+// Whether programs for these two, with the same layout and format, are the same: whatever build_program() reads.
+bool have_same_program(const DrawState& a, const DrawState& b);
+
 // fuse: false runs every stage alone.
 void build_program(const DrawState& state, const VertexLayout& layout, ColorFormat format, bool fuse, CodeCache& cache,
                    PipelineProgram& program);

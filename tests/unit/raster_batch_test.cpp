@@ -1,0 +1,110 @@
+// What a batch keeps: one program for all draws that need the same, and no more draws than the cache holds.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "raster/batch.h"
+#include "raster/recycled.h"
+
+namespace {
+
+using namespace halfspace::raster;
+
+class BatchTest : public testing::Test {
+ protected:
+  const PipelineProgram* program(const DrawState& state, const VertexLayout& layout = {},
+                                 ColorFormat format = ColorFormat::rgba8) {
+    return &batch.program_for(std::make_shared<const DrawState>(state), layout, format, true);
+  }
+  static std::shared_ptr<const TextureView> one_texel(uint8_t level) {
+    Texture texture;
+    const uint8_t texel[4] = {level, level, level, 255};
+    texture.define_level(0, 1, 1, 0, BaseFormat::rgba, texel, sizeof texel);
+    return texture.view({}, 1);
+  }
+  Batch batch;
+};
+
+const std::pair<const char*, std::function<void(DrawState&)>> kForFragments[] = {
+    {"shading", [](DrawState& s) { s.raster.flat_shading = true; }},
+    {"stipple", [](DrawState& s) { s.polygon.stipple = true; }},
+    {"fog", [](DrawState& s) { s.fog.enabled = true; }},
+    {"fog's colour", [](DrawState& s) { s.fog.color.g = 0.5f; }},
+    {"stencil", [](DrawState& s) { s.stencil.test = true; }},
+    {"stencil's reference", [](DrawState& s) { s.stencil.reference = 3; }},
+    {"depth", [](DrawState& s) { s.depth.test = true; }},
+    {"alpha test", [](DrawState& s) { s.alpha_test.reference = 0.25f; }},
+    {"blending", [](DrawState& s) { s.blend.enabled = true; }},
+    {"logical operation", [](DrawState& s) { s.logic_op.enabled = true; }},
+    {"colour mask", [](DrawState& s) { s.color_mask.b = false; }},
+    {"targets", [](DrawState& s) { s.color_targets = kFrontPlane; }},
+    {"environment", [](DrawState& s) { s.texture.env = EnvMode::decal; }},
+    {"environment's colour", [](DrawState& s) { s.texture.env_color.r = 0.75f; }},
+    {"accuracy", [](DrawState& s) { s.accuracy.filter = Level::draft; }},
+};
+
+TEST_F(BatchTest, WhatFragmentsMeetMakesAProgram) {
+  std::set<const PipelineProgram*> programs{program({})};
+  for (const auto& [name, change] : kForFragments) {
+    DrawState state;
+    change(state);
+    EXPECT_TRUE(programs.insert(program(state)).second) << name;
+    EXPECT_EQ(programs.count(program(state)), 1u) << name << ": looked up again";
+  }
+  DrawState textured;
+  for (const uint8_t level : {uint8_t{1}, uint8_t{2}}) {
+    textured.texture.view = one_texel(level);
+    EXPECT_TRUE(programs.insert(program(textured)).second) << "texture " << int{level};
+  }
+}
+
+TEST_F(BatchTest, WhatTheVertexStageHasDoneWithMakesNone) {
+  DrawState state;
+  state.texture.view = one_texel(7);
+  const PipelineProgram* first = program(state);
+  state.clip_from_object[12] = 0.5;
+  state.eye_from_object[5] = 2;
+  state.texture.matrix[0] = 3;
+  state.lighting.enabled = true;
+  state.viewport.width = 40;
+  state.raster.cull_back = true;
+  EXPECT_EQ(program(state), first);
+}
+
+TEST_F(BatchTest, LayoutAndFormatCountToo) {
+  VertexLayout colored;
+  colored.color = 0, colored.attribute_count = 4;
+  VertexLayout red;
+  red.constant_color = {1, 0, 0, 1};
+  const std::set<const PipelineProgram*> programs{program({}), program({}, colored), program({}, red),
+                                                  program({}, {}, ColorFormat::rgba32f)};
+  EXPECT_EQ(programs.size(), 4u);
+}
+
+TEST_F(BatchTest, ManySmallDrawsFillIt) {
+  int draws = 0;
+  for (; !batch.is_full(1) && draws < 100000; ++draws) batch.draws.emplace_back();
+  EXPECT_GE(draws, 16);
+  EXPECT_LE(draws, 1024) << "several kilobytes each";
+}
+
+TEST(RecycledTest, ObjectsStayInPlaceAndComeBackFresh) {
+  const auto held = std::make_shared<int>(5);
+  Recycled<std::shared_ptr<int>> list;
+  auto* const first = &list.emplace_back();
+  *first = held;
+  for (int i = 0; i < 100; ++i) list.emplace_back();
+  EXPECT_EQ(&list[0], first);
+  EXPECT_EQ(list.size(), 101u);
+  list.clear();
+  EXPECT_TRUE(list.empty());
+  EXPECT_EQ(held.use_count(), 1) << "what it held is let go";
+  EXPECT_EQ(&list.emplace_back(), first);
+  EXPECT_EQ(*first, nullptr);
+}
+
+}  // namespace
