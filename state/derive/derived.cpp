@@ -221,7 +221,9 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   const uint64_t revision = texture_revision(context);
   if (revision != derived.texture_revision) derived.dirty |= kDirtyTexture;
   if (derived.dirty == 0) return derived.state;
-  auto next = derived.state ? std::make_shared<DrawState>(*derived.state) : std::make_shared<DrawState>();
+  const BlockPool::Allocator<DrawState> memory(derived.pool);
+  auto next = derived.state ? std::allocate_shared<DrawState>(memory, *derived.state)
+                            : std::allocate_shared<DrawState>(memory);
   if (derived.dirty & kDirtyTransform) derive_transform(context, *next);
   if (derived.dirty & kDirtyViewport) derive_viewport(context, *next);
   if (derived.dirty & kDirtyRaster) {

@@ -6,6 +6,7 @@
 
 #include "raster/api/draw_packet.h"
 #include "raster/api/draw_state.h"
+#include "state/derive/block_pool.h"
 #include "state/gl_types.h"
 
 namespace halfspace::state {
@@ -27,6 +28,7 @@ enum DirtyBits : uint32_t {
 struct DerivedState {
   uint32_t dirty = kDirtyAll;
   uint64_t texture_revision = 0;  // of the texture unit in `state`
+  BlockPool pool;  // draws' states come from here
   std::shared_ptr<const raster::DrawState> state;
 };
 
