@@ -137,6 +137,21 @@ TEST(BadInput, PrimitivesWithoutPositionAreDropped) {
   }
 }
 
+// Whichever corner it is, and wherever the other two are.
+TEST(BadInput, TrianglesWithACornerThatIsNoNumberAreDropped) {
+  for (size_t corner = 0; corner < 3; ++corner) {
+    for (int component = 0; component < 4; ++component) {
+      Vertex v[3] = {snapped_vertex(256 * 5, 256 * 9, 128), snapped_vertex(256 * (kSize - 3), 256 * 20, 128),
+                     snapped_vertex(256 * 30, 256 * (kSize - 4), 128)};
+      (&v[corner].x)[component] = std::numeric_limits<float>::quiet_NaN();
+      Canvas canvas(kSize, kSize);
+      canvas.draw_plain(plain_state(128, 128), Primitive::triangles, v, {1, 1, 1, 1});
+      EXPECT_EQ(canvas.device().statistics().fragments, 0u) << "component " << component << " of corner " << corner;
+      for (uint8_t byte : canvas.read().rgba) ASSERT_EQ(int(byte), 0) << "component " << component << " of corner " << corner;
+    }
+  }
+}
+
 TEST(BadInput, EmptyDrawsAndEmptyViewports) {
   Canvas canvas(kSize, kSize);
   const std::vector<Vertex> quad = snapped_quad(0, 0, 256 * kSize, 256 * kSize, 128);

@@ -216,6 +216,29 @@ TEST(Clip, SharedEdgesThroughTheGuardBand) {
   }
 }
 
+// Needles a few sub-pixels wide, cut by the near and the far plane: snapping bends what is left, and still no pixel is
+// drawn twice.
+TEST(Clip, ABentRemainderIsDrawnOnce) {
+  Random random(3);
+  for (int round = 0; round < (long_tests() ? 100000 : 3000); ++round) {
+    const int64_t x = random.integer(0, 64 * 256), y = random.integer(0, 64 * 256);
+    const int64_t dx = random.integer(-40 * 256, 40 * 256), dy = random.integer(-40 * 256, 40 * 256);
+    const Color one{1.0f / 255, 1.0f / 255, 1.0f / 255, 1};
+    const auto corner = [&](int64_t part, float z) {
+      return snapped_vertex(x + dx * part / 16 + random.integer(-3, 3), y + dy * part / 16 + random.integer(-3, 3), 64, z, one);
+    };
+    Vertex v[3] = {corner(0, random.real(-4, 0)), corner(random.integer(1, 15), random.real(-2, 2)),
+                   corner(16, random.real(0, 4))};
+    DrawState state = plain_state(64, 64);
+    state.blend = {true, BlendFactor::one, BlendFactor::one};
+    Canvas canvas(64, 64);
+    canvas.draw(state, Primitive::triangles, v);
+    const Picture picture = canvas.read();
+    for (size_t i = 0; i < picture.rgba.size(); i += 4)
+      ASSERT_LE(int(picture.rgba[i]), 1) << "round " << round << ", pixel " << i / 4 % 64 << ", " << i / 256;
+  }
+}
+
 // Attributes of a triangle cut by the guard band come from the whole triangle.
 TEST(Clip, FarCornersKeepTheirColours) {
   Random random(3);

@@ -1,10 +1,13 @@
 // Colours: bytes come back, gradients round to nearest, flat shading takes the provoking vertex.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/oracle/fragment.h"
 #include "tests/oracle/triangle.h"
 #include "tests/support/canvas.h"
 #include "tests/support/random.h"
+#include "tests/support/textures.h"
 
 namespace halfspace::test {
 namespace {
@@ -48,6 +51,34 @@ TEST(Color, EveryByteComesBack) {
       }
     }
   }
+}
+
+// A pixel's centre may lie just outside the corners as they were before snapping. The colour is not carried on beyond its
+// range there: what it is multiplied with afterwards would show it.
+TEST(Color, NothingIsBrighterThanWhite) {
+  Random random(77);
+  TestTexture texture;
+  texture.add_color(1, 1, (const uint8_t[]){128, 128, 128, 255});
+  DrawState state = plain_state(kSize, kSize);
+  state.texture.view = texture.view(sampler_of(Filter::nearest, Wrap::repeat));
+  state.texture.env = EnvMode::modulate;
+  std::vector<Vertex> triangles;
+  for (int i = 0; i < 6000; ++i) {
+    // Needles 3 to 6 sub-pixels wide, dark along one side.
+    const double x = random.real(-1, 1), y = random.real(-1, 1), angle = random.real(0, 6.25);
+    const double along = 40.0 / kSize, across = random.real(3, 6) / 256 * 2 / kSize;
+    const double dx = std::cos(angle), dy = std::sin(angle);
+    const auto corner = [&](double u, double v, float bright) {
+      triangles.push_back({float(x + u * dx - v * dy), float(y + u * dy + v * dx), 0, 1, {bright, bright, bright, 1}});
+    };
+    corner(-along, 0, 0), corner(along, 0, 0), corner(0, across, 1);
+  }
+  Canvas canvas(kSize, kSize);
+  canvas.draw(state, Primitive::triangles, triangles);
+  const Picture picture = canvas.read();
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x)
+      for (int k = 0; k < 3; ++k) ASSERT_LE(int(picture.pixel(x, y)[k]), 128) << "at (" << x << ", " << y << ")";
 }
 
 TEST(Color, ClearRoundsToNearest) {

@@ -146,6 +146,19 @@ TEST(Coverage, EdgesAlongTilesAndBlocks) {
   });
 }
 
+// Slanted edges through the centre of a tile's corner pixel: it may be all the tile has of the triangle, and nothing but
+// the rule for edges says whose it is.
+TEST(Coverage, EdgesThroughTheCornersOfTiles) {
+  constexpr int64_t kTile = 64 * kPixel;
+  expect_exact_for(14, [](Random& r) {
+    const auto corner = [&r] { return kTile + (r.integer(0, 1) ? kCenter : -kCenter); };
+    const SnappedPoint centre{corner(), corner()};
+    const int64_t dx = r.integer(1, 30) * kPixel, dy = r.integer(1, 30) * kPixel * (r.integer(0, 1) ? 1 : -1);
+    const SnappedPoint a{centre.x - dx, centre.y - dy}, b{centre.x + dx, centre.y + dy};
+    return SnappedTriangle{a, b, r.integer(0, 1) ? SnappedPoint{a.x, b.y} : SnappedPoint{b.x, a.y}};
+  });
+}
+
 // One corner 10^3 .. 10^4 px away, all inside the guard band.
 TEST(Coverage, FarCorner) {
   expect_exact_for(8, [](Random& r) {

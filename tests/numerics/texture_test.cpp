@@ -357,6 +357,49 @@ TEST(TextureRepeat, WholeRepeatsChangeNothing) {
 }
 
 // Texels are copied when a view is held: a draw shows the texture as it was when the view was taken.
+// With a q at every corner nothing is taken off before the divide: negative coordinates repeat all the same.
+TEST(TextureRepeat, NegativeQuotientsRepeat) {
+  Random random(7);
+  for (Filter filter : {Filter::nearest, Filter::linear}) {
+    TestTexture texture;
+    texture.add_noise(random, 16, 16);
+    const DrawState state = replace_state(kSize, texture.view(sampler_of(filter, Wrap::repeat)));
+    const auto drawn = [&](float offset) {
+      std::vector<Vertex> quad = snapped_quad(0, 0, 64 * 256, 64 * 256, kSize);
+      for (size_t i = 0; i < 4; ++i) {
+        Vertex& v = quad[i];
+        v.q = i == 1 || i == 2 ? 2.0f : 1.0f;
+        v.s = v.q * (offset + (i == 1 || i == 2 ? 2.25f : 0.125f));
+        v.t = v.q * (offset + (i < 2 ? 0.25f : 1.5f));
+      }
+      Canvas canvas(kSize, kSize);
+      canvas.draw(state, Primitive::quads, quad);
+      return canvas.read();
+    };
+    EXPECT_EQ(first_difference(drawn(0), drawn(-4)), "") << "filter " << int(filter);
+  }
+}
+
+// Snapping takes an edge to a pixel's centre from just beside it: there the coordinate is just below nought, which is the
+// last texel's place.
+TEST(TextureRepeat, JustBelowNoughtIsTheLastTexel) {
+  constexpr int kTexels = 256, kAcross = 16;
+  Random random(8);
+  TestTexture texture;
+  texture.add_noise(random, kTexels, 1);
+  const Sampler sampler = sampler_of(Filter::nearest, Wrap::repeat);
+  const oracle::Texture reference = texture.reference(sampler);
+  std::vector<Vertex> quad = snapped_quad(128, 0, 128 + 256 * kAcross, 4 * 256, kSize);
+  for (Vertex& v : quad) v.x += float(2 * 0.0015 / kSize);  // pixels, less than half a sub-pixel
+  quad[1].s = quad[2].s = 1;
+  Canvas canvas(kSize, 4);
+  DrawState state = replace_state(kSize, texture.view(sampler));
+  canvas.draw(state, Primitive::quads, quad);
+  // Sixteen texels a pixel: 0.024 of one to the left of it.
+  EXPECT_EQ(bytes_at(canvas.read(), 0, 1), texel_bytes(reference.levels[0], kTexels - 1, 0));
+  EXPECT_EQ(bytes_at(canvas.read(), 1, 1), texel_bytes(reference.levels[0], kTexels / kAcross - 1, 0));
+}
+
 TEST(TextureView, KeepsItsTexels) {
   std::vector<uint8_t> texels(4 * 4 * 4, 200);
   Texture texture;

@@ -114,7 +114,6 @@ void fog_ends(Stage& stage) {
   const float white[4] = {1, 1, 1, 1};
   glFogfv(GL_FOG_COLOR, white);
   glEnable(GL_FOG);
-  glHint(GL_FOG_HINT, GL_NICEST);
   struct Fog {
     GLint mode;
     float density, start, end;
@@ -128,13 +127,16 @@ void fog_ends(Stage& stage) {
   glOrtho(-1, 1, -1, 1, 0, 8);
   glMatrixMode(GL_MODELVIEW);
   glColor3ub(40, 40, 40);
-  for (int i = 0; i < 8; ++i) {
-    const Fog& fog = kFogs[i];
+  for (int i = 0; i < 16; ++i) {
+    const Fog& fog = kFogs[i % 8];
+    const int x = stage.width * (i % 8) / 8, half = stage.height / 2;
+    // Below as the level has it, above at its most exact.
+    glHint(GL_FOG_HINT, i < 8 ? GL_DONT_CARE : GL_NICEST);
     glFogi(GL_FOG_MODE, fog.mode);
     glFogf(GL_FOG_DENSITY, fog.density);
     glFogf(GL_FOG_START, fog.start);
     glFogf(GL_FOG_END, fog.end);
-    glViewport(stage.width * i / 8, 0, stage.width * (i + 1) / 8 - stage.width * i / 8, stage.height);
+    glViewport(x, i < 8 ? 0 : half, stage.width * (i % 8 + 1) / 8 - x, i < 8 ? half : stage.height - half);
     glBegin(GL_QUADS);
     glVertex3f(-1, -1, -0.5f), glVertex3f(1, -1, -0.5f), glVertex3f(1, 1, -7), glVertex3f(-1, 1, -7);
     glEnd();
