@@ -5,8 +5,10 @@ inline constexpr double kDepthScale = static_cast<double>(kDepthMax);
 
 inline constexpr double kTexelTolerance = 1.0 / 1024;  // texels of level 0 the float path may be off
 inline constexpr double kColorTolerance = 1.0 / 64;    // levels of 255
-inline constexpr double kFloatUlps =
-    3.0 / (1 << 24);  // roundings, of 2^-24 each: docs/numerics.md, "Precision on demand"
+// docs/numerics.md, "Precision on demand".
+inline constexpr double kRounding = 1.0 / (1 << 24);
+inline constexpr double kFloatUlps = 3 * kRounding;
+inline constexpr double kCloseLook = 4.0 / 3;  // the part of a tolerance that the closer look may use up
 
 struct CornerVectors {
   VD x[3], y[3];
@@ -181,11 +183,85 @@ struct PlaneMaker {
   }
 };
 
-// REPEAT: whole turns come off before anything becomes float. All lanes take part; others' Wrap leaves values
-// alone.
+// REPEAT: whole turns come off before anything becomes float, so that what is left lies around 0. All lanes take part;
+// others' Wrap leaves values alone.
 HWY_INLINE void TakeWholeTurns(VD value[3]) {
-  const VD turns = hn::Floor(hn::Min(hn::Min(value[0], value[1]), value[2]));
+  const DD d;
+  const VD least = hn::Min(hn::Min(value[0], value[1]), value[2]);
+  const VD most = hn::Max(hn::Max(value[0], value[1]), value[2]);
+  const VD turns = hn::Floor(hn::Mul(hn::Add(least, most), hn::Set(d, 0.5)));
   for (int k = 0; k < 3; ++k) value[k] = hn::Sub(value[k], turns);
+}
+
+// A second look at primitives that the bounds of PlaneMaker take for too large for floats: the same roundings, but at
+// each corner against 1/w at that very corner. A bound is largest at a corner, since it is convex and 1/w linear.
+struct CornerBounds {
+  VD x[3], y[3], spread[3];  // of each snapped corner: the way from the anchor, pixels; w, 1 where it is constant
+  VD w_error;                // of 1/w in float, in parts of it
+  hn::Mask<DD> fails;
+
+  HWY_INLINE CornerBounds(const CornerVectors& v, const PlaneMaker& maker, int i, const SetupBatch& out) {
+    const DD d;
+    const VD one = hn::Set(d, 1.0), pixel = hn::Set(d, 1.0 / kSubpixelScale);
+    hn::Mask<DD> normal = hn::Eq(one, one);
+    for (int k = 0; k < 3; ++k) {
+      x[k] = hn::Mul(hn::Sub(v.x[k], v.x[0]), pixel);
+      y[k] = hn::Mul(hn::Sub(v.y[k], v.y[0]), pixel);
+      spread[k] = one;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const VD inv_w = Largest(1, k, i, out).value;
+      normal = hn::And(normal, hn::Ge(inv_w, hn::Set(d, 0x1p-100)));
+      spread[k] = hn::Div(one, hn::IfThenElse(maker.affine, one, inv_w));
+    }
+    w_error = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) w_error = hn::Max(w_error, Largest(1, k, i, out).error);
+    w_error = hn::IfThenZeroElse(maker.affine, w_error);
+    const auto near = hn::And(normal, hn::Le(w_error, hn::Set(d, 1.0 / 256)));
+    fails = hn::Not(hn::Or(maker.affine, near));
+  }
+
+  HWY_INLINE void Check(int plane, VD tolerance, int i, const SetupBatch& out) {
+    const DD d;
+    VD error = hn::Zero(d), value = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) {
+      const Corner corner = Largest(plane, k, i, out);
+      error = hn::Max(error, corner.error);
+      value = hn::Max(value, hn::Abs(corner.value));
+    }
+    const VD quotient = hn::Mul(value, hn::Add(w_error, hn::Set(d, 2 * kRounding)));
+    fails = hn::Or(fails, hn::Not(hn::Le(hn::Add(error, quotient), tolerance)));
+  }
+
+ private:
+  struct Corner {
+    VD value, error;  // both times w
+  };
+  HWY_INLINE Corner Largest(int plane, int k, int i, const SetupBatch& out) const {
+    const DD d;
+    const VD f0 = hn::Load(d, out.f0[plane] + i);
+    const VD across = hn::Mul(hn::Load(d, out.dfdx[plane] + i), x[k]);
+    const VD up = hn::Mul(hn::Load(d, out.dfdy[plane] + i), y[k]);
+    const VD row = hn::Add(f0, up), value = hn::Add(row, across);
+    const VD steps = hn::Mul(hn::Add(hn::Abs(across), hn::Abs(up)), hn::Set(d, 2.0));
+    const VD sums = hn::Add(hn::Abs(f0), hn::Add(hn::Abs(row), hn::Abs(value)));
+    return {hn::Mul(value, spread[k]), hn::Mul(hn::Mul(hn::Add(sums, steps), hn::Set(d, kRounding)), spread[k])};
+  }
+};
+
+HWY_NOINLINE void LookCloser(const VertexLayout& layout, const FragmentParams& params, const CornerVectors& v, int i,
+                             const SetupBatch& out, PlaneMaker& maker) {
+  const DD d;
+  CornerBounds bounds(v, maker, i, out);
+  for (int k = 0; layout.color >= 0 && k < 4; ++k)
+    bounds.Check(2 + layout.color + k, hn::Set(d, kCloseLook * kColorTolerance), i, out);
+  if (layout.tex_coord >= 0) {
+    bounds.Check(2 + layout.tex_coord, hn::Set(d, kCloseLook * kTexelTolerance / params.levels[0].width_i), i, out);
+    bounds.Check(3 + layout.tex_coord, hn::Set(d, kCloseLook * kTexelTolerance / params.levels[0].height_i), i, out);
+  }
+  if (layout.fog >= 0)
+    bounds.Check(2 + layout.fog, hn::Set(d, kCloseLook * kColorTolerance * params.fog.level_span), i, out);
+  maker.needs_double = hn::And(maker.needs_double, bounds.fails);
 }
 
 // The accuracy axes' say in which planes a primitive is interpolated by.
@@ -220,13 +296,14 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
       maker.StoreAttribute(value, 2 + layout.tex_coord + a, i, layout.projective,
                            hn::Set(d, kTexelTolerance / size[a]), out);
     }
-    if (layout.projective) maker.needs_double = hn::Eq(maker.scale, maker.scale);
   }
   if (layout.fog >= 0) {
     for (int k = 0; k < 3; ++k) value[k] = hn::Load(d, in.attribute[layout.fog][k] + i);
     maker.StoreAttribute(value, 2 + layout.fog, i, false, hn::Set(d, kColorTolerance * params.fog.level_span),
                          out);
   }
+  if (layout.projective) maker.needs_double = hn::Eq(maker.scale, maker.scale);
+  else if (!hn::AllFalse(d, maker.needs_double)) LookCloser(layout, params, v, i, out, maker);
   if (HWY_UNLIKELY(params.plane_rule != PlaneRule::by_bound)) ApplyPlaneRule(params, maker);
   // Variant bits by way of integers: one small number a lane.
   const VD bits = hn::Add(hn::IfThenElseZero(maker.affine, hn::Set(d, static_cast<double>(kAffine))),

@@ -115,20 +115,23 @@ HWY_INLINE void CopyCorners(const Segment& segment, const ShadedVertices& vertic
   }
 }
 
-// The reference vertex is the lowest, then leftmost one; the others follow counter-clockwise. So planes and edges
-// depend on where the corners are, not on the order they were given in.
+// The reference vertex is the one farthest from the eye, of those the lowest, of those the leftmost; the others follow
+// counter-clockwise. So planes and edges depend on where the corners are, not on the order they were given in. Farthest
+// since there 1/w is least, and floats round least where they start from.
 struct CornerOrder {
   hn::Mask<DD> clockwise, second_first, third_first;
 
-  HWY_INLINE CornerOrder(const VD x[3], const VD y[3], hn::Mask<DD> in_order) {
+  HWY_INLINE CornerOrder(const VD x[3], const VD y[3], const VD w[3], hn::Mask<DD> in_order) {
     const DD d;
     const VD area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
                             hn::Mul(hn::Sub(x[2], x[0]), hn::Sub(y[1], y[0])));
     clockwise = hn::AndNot(in_order, hn::Lt(area, hn::Zero(d)));
     const VD xb = hn::IfThenElse(clockwise, x[2], x[1]), xc = hn::IfThenElse(clockwise, x[1], x[2]);
     const VD yb = hn::IfThenElse(clockwise, y[2], y[1]), yc = hn::IfThenElse(clockwise, y[1], y[2]);
-    second_first = hn::AndNot(in_order, hn::AndNot(IsBelow(xc, yc, xb, yb), IsBelow(xb, yb, x[0], y[0])));
-    third_first = hn::AndNot(in_order, hn::AndNot(second_first, IsBelow(xc, yc, x[0], y[0])));
+    const VD wb = hn::IfThenElse(clockwise, w[2], w[1]), wc = hn::IfThenElse(clockwise, w[1], w[2]);
+    const auto b_first = IsBefore(xb, yb, wb, x[0], y[0], w[0]), c_first = IsBefore(xc, yc, wc, x[0], y[0], w[0]);
+    second_first = hn::AndNot(in_order, hn::AndNot(IsBefore(xc, yc, wc, xb, yb, wb), b_first));
+    third_first = hn::AndNot(in_order, hn::AndNot(second_first, c_first));
   }
 
   HWY_INLINE void Apply(VD v[3]) const {
@@ -139,8 +142,10 @@ struct CornerOrder {
   }
 
  private:
-  static HWY_INLINE hn::Mask<DD> IsBelow(VD ax, VD ay, VD bx, VD by) {
-    return hn::Or(hn::Lt(ay, by), hn::And(hn::Eq(ay, by), hn::Lt(ax, bx)));
+  // aw, bw: 1/w.
+  static HWY_INLINE hn::Mask<DD> IsBefore(VD ax, VD ay, VD aw, VD bx, VD by, VD bw) {
+    const auto below = hn::Or(hn::Lt(ay, by), hn::And(hn::Eq(ay, by), hn::Lt(ax, bx)));
+    return hn::Or(hn::Lt(aw, bw), hn::And(hn::Eq(aw, bw), below));
   }
 };
 
@@ -168,7 +173,7 @@ HWY_INLINE void SpreadCorners(const QuadPlan& quads, int attributes, int i, Setu
   }
   const hn::RebindToUnsigned<DD> words;
   const auto in_order = hn::RebindMask(d, hn::Ne(hn::Load(words, in.in_order + i), hn::Zero(words)));
-  const CornerOrder order(x, y, in_order);
+  const CornerOrder order(x, y, inv_w, in_order);
   order.Apply(place), order.Apply(z), order.Apply(inv_w), order.Apply(rest);
   for (int k = 0; k < 3; ++k) {
     hn::Store(LowHalf(di, place[k]), di, in.x[k] + i);

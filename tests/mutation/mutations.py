@@ -61,7 +61,7 @@ MUTATIONS = [
 
     # ---- planes
     Mutation("the reference vertex is the first one given", "raster/tile/setup_gather.inl",
-             "third_first = hn::AndNot(in_order, hn::AndNot(second_first, IsBelow(xc, yc, x[0], y[0])))",
+             "third_first = hn::AndNot(in_order, hn::AndNot(second_first, c_first))",
              "third_first = hn::MaskFromVec(hn::Zero(d))",
              "translation_test:Translation.OrderOfVerticesChangesNothing"),
     Mutation("colours are scaled by 256", SETUP,
@@ -74,8 +74,11 @@ MUTATIONS = [
              "hn::And(hn::Le(longest, half), hn::Le(slope, hn::Mul(least, half)))", "hn::Lt(longest, hn::Zero(d))",
              "color_test:Color.GradientsRoundToNearest"),
     Mutation("whole repeats stay in the coordinate", SETUP,
-             "const VD turns = hn::Floor(hn::Min(hn::Min(value[0], value[1]), value[2]))",
-             "const VD turns = hn::Zero(DD())", "hard_cases:texcoord_offsets"),
+             "hn::Floor(hn::Mul(hn::Add(least, most), hn::Set(d, 0.5)))",
+             "hn::Mul(hn::Zero(d), hn::Add(least, most))", "hard_cases:texcoord_offsets"),
+    Mutation("the closer look lets every plane through as floats", SETUP,
+             "hn::And(maker.needs_double, bounds.fails)", "hn::AndNot(maker.needs_double, bounds.fails)",
+             "precision_test:*"),
     Mutation("smooth colours are not held to 255", STAGES + "color.inl",
              "hn::Min(hn::Max(x, hn::Zero(DF())), hn::Set(DF(), 255.0f))", "x",
              "color_test:Color.NothingIsBrighterThanWhite"),
