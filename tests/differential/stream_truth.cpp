@@ -22,6 +22,7 @@ struct Options {
   uint64_t first = 1, count = 100;
   int most_tries = 300;
   double most_doubtful = 0.05;  // of all pixels
+  double depth = 1;             // steps of the 24-bit buffer
 };
 
 struct Judged {
@@ -97,9 +98,8 @@ class Checker {
       if (byte[k] < truth.low[k] || byte[k] > truth.high[k]) return false;
     return true;
   }
-  // A step of the 24-bit buffer is what the standard level promises; rounding takes up to half of it.
-  static bool is_depth(const TruePixel& truth, uint32_t depth) {
-    return std::fabs(static_cast<double>(depth) - truth.depth) <= 1;
+  bool is_depth(const TruePixel& truth, uint32_t depth) const {
+    return std::fabs(static_cast<double>(depth) - truth.depth) <= options_.depth;
   }
   uint32_t depth_at(int x, int y) const {
     return picture_.depth[static_cast<size_t>(y * picture_.width + x)];
@@ -148,6 +148,8 @@ int run(int argc, char** argv) {
   app.add_option("--oracle", options.oracle, "The oracle's")->required();
   app.add_option("--first", options.first, "The first seed");
   app.add_option("--seeds", options.count, "How many");
+  app.add_option("--depth", options.depth,
+                 "Steps that a depth may be off: standard promises 1, exact rounding's half");
   app.add_option("--groups", options.groups, "Only these groups of calls, separated by commas");
   app.add_option("--tries", options.most_tries,
                  "Streams to try while one is cut down; 0: it is printed whole");
