@@ -35,11 +35,6 @@ struct WidePixel {
   VU rb, ga;
 };
 
-HWY_INLINE WidePixel Widen(VU pixel) {
-  const VU low = hn::Set(DU(), 0x00ff00ffu);
-  return {hn::And(pixel, low), hn::And(hn::ShiftRight<8>(pixel), low)};
-}
-
 #if HWY_TARGET == HWY_SCALAR
 template <class F>
 HWY_INLINE VU ForHalves(VU a, VU b, F f) {
@@ -48,6 +43,9 @@ HWY_INLINE VU ForHalves(VU a, VU b, F f) {
 }
 HWY_INLINE VU Mul16(VU a, VU b) {
   return ForHalves(a, b, [](uint32_t x, uint32_t y) { return x * y; });
+}
+HWY_INLINE VU MulHigh16(VU a, VU b) {
+  return ForHalves(a, b, [](uint32_t x, uint32_t y) { return x * y >> 16; });
 }
 HWY_INLINE VU Min16(VU a, VU b) {
   return ForHalves(a, b, [](uint32_t x, uint32_t y) { return x < y ? x : y; });
@@ -60,6 +58,9 @@ using DU16 = hn::Repartition<uint16_t, DU>;
 HWY_INLINE VU Mul16(VU a, VU b) {
   return hn::BitCast(DU(), hn::Mul(hn::BitCast(DU16(), a), hn::BitCast(DU16(), b)));
 }
+HWY_INLINE VU MulHigh16(VU a, VU b) {
+  return hn::BitCast(DU(), hn::MulHigh(hn::BitCast(DU16(), a), hn::BitCast(DU16(), b)));
+}
 HWY_INLINE VU Min16(VU a, VU b) {
   return hn::BitCast(DU(), hn::Min(hn::BitCast(DU16(), a), hn::BitCast(DU16(), b)));
 }
@@ -67,11 +68,31 @@ HWY_INLINE VU SaturatedAdd16(VU a, VU b) {
   return hn::BitCast(DU(), hn::SaturatedAdd(hn::BitCast(DU16(), a), hn::BitCast(DU16(), b)));
 }
 #endif
-HWY_INLINE VU Twice(VU half) { return hn::Or(half, hn::ShiftLeft<16>(half)); }
 
-// x / 255 rounded to the nearest, for 0 <= x <= 255 * 255. The high byte of each half.
-HWY_INLINE VU Divided255InHighByte(VU x) {
+HWY_INLINE WidePixel Widen(VU pixel) {
   const VU low = hn::Set(DU(), 0x00ff00ffu);
-  const VU y = hn::Add(x, hn::Set(DU(), 0x00800080u));
-  return hn::Add(y, hn::And(hn::ShiftRight<8>(y), low));
+#if HWY_TARGET == HWY_SCALAR
+  return {hn::And(pixel, low), hn::And(hn::ShiftRight<8>(pixel), low)};
+#else
+  return {hn::And(pixel, low), hn::BitCast(DU(), hn::ShiftRight<8>(hn::BitCast(DU16(), pixel)))};
+#endif
+}
+HWY_INLINE VU Narrow(const WidePixel& p) { return hn::Or(p.rb, hn::ShiftLeft<8>(p.ga)); }
+
+// The upper half of each lane in both.
+HWY_INLINE VU UpperTwice(VU v) {
+#if HWY_TARGET == HWY_SCALAR
+  const VU half = hn::ShiftRight<16>(v);
+  return hn::Or(half, hn::ShiftLeft<16>(half));
+#else
+  const hn::Repartition<uint8_t, DU> bytes;
+  alignas(16) static constexpr uint8_t kUpper[16] = {2, 3, 2, 3, 6, 7, 6, 7, 10, 11, 10, 11, 14, 15, 14, 15};
+  return hn::BitCast(DU(), hn::TableLookupBytes(hn::BitCast(bytes, v), hn::LoadDup128(bytes, kUpper)));
+#endif
+}
+
+// Each half divided by 255 and rounded to the nearest, for 0 <= x <= 255 * 255: exactly, with y = x + 128, as
+// (y + y / 256) / 256 in whole numbers.
+HWY_INLINE VU Divided255(VU x) {
+  return MulHigh16(hn::Add(x, hn::Set(DU(), 0x00800080u)), hn::Set(DU(), 0x01010101u));
 }

@@ -24,7 +24,7 @@ HWY_INLINE WidePixel BlendWeights(BlendFactor factor, const WidePixel& s, const 
   const VU most = hn::Set(DU(), 0x00ff00ffu);
   const auto rest = [&](const WidePixel& p) HWY_ATTR { return WidePixel{hn::Xor(p.rb, most), hn::Xor(p.ga, most)}; };
   const auto alpha = [](const WidePixel& p) HWY_ATTR {
-    const VU twice = Twice(hn::ShiftRight<16>(p.ga));
+    const VU twice = UpperTwice(p.ga);
     return WidePixel{twice, twice};
   };
   switch (factor) {
@@ -49,7 +49,7 @@ HWY_INLINE WidePixel BlendWeights(BlendFactor factor, const WidePixel& s, const 
 // kOver: by the source's alpha, as most blending is; else as the draw says.
 template <bool kOver>
 struct BlendRgba8 {
-  static constexpr bool kKills = false, kPacks = false;
+  static constexpr bool kKills = false, kPacks = false, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
@@ -58,18 +58,16 @@ struct BlendRgba8 {
     const WidePixel s = Widen(hn::BitCast(d, v.slot[kPixel])), dst = Widen(hn::Load(d, c.color + i));
     const WidePixel fs = BlendWeights(kOver ? BlendFactor::src_alpha : c.params->blend_src, s, dst);
     const WidePixel fd = BlendWeights(kOver ? BlendFactor::one_minus_src_alpha : c.params->blend_dst, s, dst);
-    const VU rb = Blended(s.rb, fs.rb, dst.rb, fd.rb), ga = Blended(s.ga, fs.ga, dst.ga, fd.ga);
-    const VU high = hn::Set(d, 0xff00ff00u);
-    v.slot[kPixel] = hn::BitCast(DF(), hn::Or(hn::ShiftRight<8>(hn::And(rb, high)), hn::And(ga, high)));
+    const WidePixel sum{Blended(s.rb, fs.rb, dst.rb, fd.rb), Blended(s.ga, fs.ga, dst.ga, fd.ga)};
+    v.slot[kPixel] = hn::BitCast(DF(), Narrow(sum));
   }
 
  private:
-  // In the high byte of each half.
   static HWY_INLINE VU Blended(VU s, VU fs, VU dst, VU fd) {
     const VU from_s = Mul16(s, fs), from_d = Mul16(dst, fd);
-    if constexpr (kOver) return Divided255InHighByte(hn::Add(from_s, from_d));
+    if constexpr (kOver) return Divided255(hn::Add(from_s, from_d));
     const VU most = hn::Set(DU(), 255u * 255u * 0x10001u);
-    return Divided255InHighByte(Min16(SaturatedAdd16(from_s, from_d), most));
+    return Divided255(Min16(SaturatedAdd16(from_s, from_d), most));
   }
 };
 
