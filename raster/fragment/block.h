@@ -89,6 +89,7 @@ struct alignas(64) BlockContext {
   const SetupBatch* setup;
   int lane;               // of the batch
   double dx, dy;          // centre of the block's lowest-left pixel minus the anchor
+  uint64_t blocks;        // whole blocks of a tile; then (dx, dy), colour and depth are the tile's, else the block's
   uint64_t live;          // bit (y % 8) * 8 + x % 8
   uint32_t* depth;        // the block's 64 pixels
   uint8_t* stencil;       // likewise

@@ -16,6 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #include "raster/exact_math.inl"
 #include "raster/fragment/lanes.inl"
+#include "raster/fragment/tile_lanes.inl"
 #include "raster/fragment/bytes.inl"
 #include "raster/fragment/wide.inl"
 #include "raster/fragment/stages/alpha_test.inl"
@@ -187,6 +188,37 @@ void RunStages(BlockContext& c) {
   RunGroups<L, ids...>(c);
 }
 
+// Stages whose pixels may count from the tile's first say so, and those for which an alpha without slope is less work.
+template <class Body>
+concept RunsInTiles = requires { Body::kInTiles; } && Body::kInTiles;
+template <class Body>
+concept TakesAlpha = requires { Body::kTakesAlpha; } && Body::kTakesAlpha;
+
+template <class L, StageId... ids>
+HWY_INLINE void RunBlocks(const BlockContext& c) {
+  const OnceAll<L, ids...> once(c);
+  for (uint64_t todo = c.blocks; todo != 0; todo &= todo - 1) {
+    const int first = __builtin_ctzll(todo) * kBlockPixels;
+    for (int i = first; i < first + kBlockPixels; i += kLanes) {
+      Lanes v;
+      v.live = MaskFromBits(kGroupBits);
+      (Step<L, ids>(c, once, i, v) && ...);
+    }
+  }
+}
+
+// A whole list on whole blocks of a tile.
+template <StageId... ids>
+void RunTileBlocks(BlockContext& c) {
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  if constexpr ((TakesAlpha<typename BodyOf<ids>::Type> || ...)) {
+    const int alpha = c.params->color_plane + 3;
+    if (c.setup->dfdx_f[alpha][c.lane] == 0 && c.setup->dfdy_f[alpha][c.lane] == 0)
+      return RunBlocks<std::conditional_t<kKills, TileLanes<true>, FullTileLanes<true>>, ids...>(c);
+  }
+  RunBlocks<std::conditional_t<kKills, TileLanes<false>, FullTileLanes<false>>, ids...>(c);
+}
+
 // A kernel and the stages it runs; `packed` is null where the lanes cannot be packed.
 struct Entry {
   StageId ids[kMaxStages];
@@ -200,8 +232,11 @@ concept TakesDepth = requires { Body::kTakesDepth; };
 
 template <StageId... ids>
 constexpr Entry MakeEntry() {
-  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>, nullptr, nullptr}};
+  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>, nullptr, nullptr, nullptr}};
   if constexpr ((BodyOf<ids>::Type::kPacks && ...)) entry.kernels.packed = &RunStages<PackedLanes, ids...>;
+  constexpr bool kInTiles = (RunsInTiles<typename BodyOf<ids>::Type> && ...);
+  constexpr bool kStores = (StoresPixels<typename BodyOf<ids>::Type> || ...);
+  if constexpr (kInTiles && kStores && TakenSlots<ids...>() == 0) entry.kernels.tile = &RunTileBlocks<ids...>;
   if constexpr (sizeof...(ids) == 1) {
     entry.kernels.given_depth = entry.kernels.block;
     if constexpr ((TakesDepth<typename BodyOf<ids>::Type> && ...))
@@ -228,7 +263,7 @@ KernelPair FindKernels(const StageId* ids, int length) {
     for (int i = 0; same && i < length; ++i) same = entry.ids[i] == ids[i];
     if (same) return entry.kernels;
   }
-  return {nullptr, nullptr, nullptr};
+  return {};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -148,7 +148,6 @@ struct BlockPlane {
     return hn::Add(FillRows(row + i / kBlockSize), across[i % kBlockSize / kLanes % kGroupsPerRow]);
   }
 
- private:
   // The column of each lane's pixel in its row.
   static HWY_INLINE VF Column() {
     const VF lane = hn::Iota(DF(), 0);
@@ -196,6 +195,7 @@ struct NothingOnce {
 struct BlockLanes {
   static HWY_INLINE uint64_t Live(const BlockContext& c) { return c.live; }
   using Plane = BlockPlane;
+  using PlaneOfAlpha = Plane;
   using PlaneDouble = BlockPlaneDouble;
   struct FlatColor {
     VF color[4];
@@ -261,6 +261,7 @@ struct PackedLanes {
     return ~uint64_t{0} >> (kBlockPixels - c.queue->count);
   }
   using Plane = PackedPlane;
+  using PlaneOfAlpha = Plane;
   using PlaneDouble = BlockPlaneDouble;  // never used: what needs doubles is not packed
   struct FlatColor {
     const BlockContext& c;

@@ -377,6 +377,15 @@ bool stores_one_value(const StageList& list) {
          list.ids[2] == write_rgba8;
 }
 
+// Whether no stage looks at what was in memory.
+bool overwrites(const StageList& list) {
+  using enum StageId;
+  const auto end = list.ids.begin() + list.count;
+  return std::none_of(list.ids.begin(), end, [](StageId id) {
+    return id < color_constant || id == blend_over_rgba8 || id == blend_rgba8 || id == write_rgba8_masked;
+  });
+}
+
 // Puts the flat colour into the interpolated one's place; false if there is none.
 bool take_flat_color(StageList& list) {
   for (StageId& id : list.ids) {
@@ -396,7 +405,10 @@ BlockProgram cover_blocks(const CodeKey& key, const StageList& list) {
     blocks.head = blocks.count;
   }
   cover(list, key.both_planes ? list.tail : 0, list.count, fuses, kind, blocks);
-  blocks.fills = !key.both_planes && blocks.count == 1 && stores_one_value(list);
+  if (key.both_planes || key.given_depth || blocks.count != 1) return blocks;
+  blocks.fills = stores_one_value(list);
+  blocks.tile = find_kernels(list.ids.data(), list.count).tile;
+  blocks.overwrites = overwrites(list);
   return blocks;
 }
 

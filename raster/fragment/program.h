@@ -34,6 +34,8 @@ struct BlockProgram {
   std::array<StageId, kMaxStages> stages{};  // the first, or only, stage of each kernel
   int count = 0;
   bool fills = false;  // one kernel that stores the same pixel value everywhere, whatever was there
+  BlockFunction tile = nullptr;  // does all of it, on whole blocks of a tile (BlockContext::blocks); null: none does
+  bool overwrites = false;       // with `tile`: what its pixels were before does not matter
   int head = 0;  // kernels before the first that touches colour memory, where there are two planes to do that to
   void run(BlockContext& block) const { run(block, 0, count); }
   void run_head(BlockContext& block) const { run(block, 0, head); }
@@ -107,8 +109,9 @@ void build_program(const DrawState& state, const VertexLayout& layout, ColorForm
 // Per-ISA code of `count` stages in a row: of one stage, or of a run listed in raster/fragment/fused.def, else null.
 // `block` works on the rows of a block, `packed` on packed fragments (null where that cannot be).
 struct KernelPair {
-  BlockFunction block, packed;
-  BlockFunction given_depth;  // of one stage only: where fragments bring their own depth
+  BlockFunction block = nullptr, packed = nullptr;
+  BlockFunction given_depth = nullptr;  // of one stage only: where fragments bring their own depth
+  BlockFunction tile = nullptr;         // of a whole list: on whole blocks of a tile
 };
 KernelPair find_kernels(const StageId* ids, int count);
 

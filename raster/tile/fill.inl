@@ -37,6 +37,19 @@ HWY_INLINE bool TileHides(TileContext& t, int lane) {
                   deepest);
 }
 
+// Of `blocks`, those that lie behind what is there.
+uint64_t HiddenBlocks(const TileContext& t, int lane, uint64_t blocks) {
+  const SetupBatch& s = t.setup;
+  uint64_t hidden = 0;
+  for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) {
+    const int block = __builtin_ctzll(todo);
+    const double dx = s.anchor_x[lane] + block % 8 * kBlockSize, dy = s.anchor_y[lane] + block / 8 * kBlockSize;
+    const double least = BoxDepth(s, lane, dx, dy, kBlockSize - 1, kBlockSize - 1, -1);
+    if (IsBehind(least, t.state->depth_max[block])) hidden |= uint64_t{1} << block;
+  }
+  return hidden;
+}
+
 // Whether the triangle's interpolated colour is the same at all pixels. If so, it becomes its flat colour.
 HWY_INLINE bool HasEvenColor(TileContext& t, int lane) {
   SetupBatch& s = t.setup;

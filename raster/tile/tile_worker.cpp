@@ -231,15 +231,54 @@ void WalkBlock(TileContext& t, int lane, int block, uint64_t mask, bool packs) {
   RunBlock(t, lane, block, mask);
 }
 
-// Blocks of the triangle that are covered all over and only to be filled; what else it covers is drawn.
-uint64_t WalkBlocks(TileContext& t, const TriangleWalk& walk, int lane, bool packs, bool fills) {
+// A block in a call of its own costs less than what a whole tile's planes do, where there are but a few.
+constexpr int kFewBlocks = 4;
+
+// Blocks that are covered all over, by the kernel that takes many.
+void RunWholeBlocks(TileContext& t, int lane, uint64_t blocks, const BlockProgram& stages) {
+  const SetupBatch& s = t.setup;
+  const PipelineProgram& program = *t.program;
+  if (__builtin_popcountll(blocks) < kFewBlocks) {
+    for (; blocks != 0; blocks &= blocks - 1) RunBlock(t, lane, __builtin_ctzll(blocks), ~uint64_t{0});
+    return;
+  }
+  if (program.rejects_deeper) blocks &= ~HiddenBlocks(t, lane, blocks);
+  if (blocks == 0) return;
+  BlockContext& c = t.block;
+  if (program.reads_depth) {
+    if ((t.state->depth_is_clear & blocks) != 0) t.framebuffer->settle_depth(t.tile, blocks);
+    c.depth = t.framebuffer->depth_tile(t.tile);
+  }
+  ColorMarks& marks = t.state->color[program.plane];
+  if (stages.overwrites) marks.is_clear &= ~blocks;
+  else if ((marks.is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks, program.plane);
+  c.color = t.framebuffer->color_tile<uint32_t>(t.tile, program.plane);
+  c.dx = s.anchor_x[lane];
+  c.dy = s.anchor_y[lane];
+  c.lane = lane;
+  c.blocks = blocks;
+  stages.tile(c);
+  const auto fragments = static_cast<uint64_t>(__builtin_popcountll(blocks)) * kBlockPixels;
+  t.statistics->fragments += fragments;
+  if ((s.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
+  if (!program.depth_may_grow && !program.depth_pass_lowers) return;
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int block = __builtin_ctzll(blocks);
+    c.dx = s.anchor_x[lane] + block % 8 * kBlockSize;
+    c.dy = s.anchor_y[lane] + block / 8 * kBlockSize;
+    UpdateDepthMax(t, lane, block, true);
+  }
+}
+
+// Blocks of the triangle that are covered all over, where `collects`; what else it covers is drawn.
+uint64_t WalkBlocks(TileContext& t, const TriangleWalk& walk, int lane, bool packs, bool collects) {
   const SetupBatch& s = t.setup;
   uint64_t filled = 0;
   for (int by = s.min_y[lane] / kBlockSize; by <= s.max_y[lane] / kBlockSize; ++by) {
     for (int bx = s.min_x[lane] / kBlockSize; bx <= s.max_x[lane] / kBlockSize; ++bx) {
       uint64_t mask = walk.Coverage(bx * kBlockSize, by * kBlockSize, s.min_y[lane], s.max_y[lane]);
       if (t.masks_blocks && mask != 0) mask &= BlockMask(t, by * 8 + bx);
-      if (fills && mask == ~uint64_t{0}) filled |= uint64_t{1} << (by * 8 + bx);
+      if (collects && mask == ~uint64_t{0}) filled |= uint64_t{1} << (by * 8 + bx);
       else if (mask != 0) WalkBlock(t, lane, by * 8 + bx, mask, packs);
     }
   }
@@ -259,20 +298,22 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
   const TriangleWalk walk(t.setup, lane);
   t.even = HasEvenColor(t, lane);
   const BlockProgram& stages = t.even ? t.program->even : t.program->variants[t.setup.variant[lane]];
+  const bool collects = stages.tile != nullptr && (stages.fills || t.notes == nullptr);
   const bool whole = !t.masks_blocks && walk.CoversTile();
-  uint64_t filled = 0;
-  if (whole && stages.fills) {
-    filled = ~uint64_t{0};
+  uint64_t covered = 0;
+  if (whole && collects) {
+    covered = ~uint64_t{0};
   } else if (whole) {
     FlushPacked(t);
     for (int block = 0; block < kTileBlocks; ++block) RunBlock(t, lane, block, ~uint64_t{0});
   } else {
-    filled = WalkBlocks(t, walk, lane, packs, stages.fills);
+    covered = WalkBlocks(t, walk, lane, packs, collects);
   }
-  if (filled != 0) {
-    if ((t.packer.blocks & filled) != 0) FlushPacked(t);
-    FillBlocks(t, filled, EvenPixel(t, lane, stages));
-    if (HWY_UNLIKELY(t.notes != nullptr)) NoteFilled(t, lane, filled);
+  if (covered != 0) {
+    if ((t.packer.blocks & covered) != 0) FlushPacked(t);
+    if (stages.fills) FillBlocks(t, covered, EvenPixel(t, lane, stages));
+    else RunWholeBlocks(t, lane, covered, stages);
+    if (HWY_UNLIKELY(t.notes != nullptr)) NoteFilled(t, lane, covered);
   }
   t.even = false;
 }

@@ -1,7 +1,7 @@
 // The primary colour at each pixel: only as much interpolation as the vertices ask for.
 
 struct ColorConstant {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   // Out here the compiler takes what is worked out from it, too, out of the loop.
   template <class L>
   struct Once {
@@ -17,7 +17,7 @@ struct ColorConstant {
 };
 
 struct ColorFlat {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   using Once = typename L::FlatColor;
   template <class L>
@@ -35,10 +35,16 @@ template <unsigned kVariant, bool kAtW = false, bool kOpen = false>
 struct ColorSmooth {
   static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
   static constexpr bool kDivides = (kVariant & kAffine) == 0;
+  static constexpr bool kInTiles = kPacks, kTakesAlpha = !kDivides;
 
-  template <class Plane>
+  struct NoPlane {
+    HWY_INLINE NoPlane(const BlockContext&, int) {}
+  };
+  template <class Plane, class PlaneOfAlpha = Plane>
   struct Planes {
-    Plane inv_w, r, g, b, a;
+    std::conditional_t<kDivides, Plane, NoPlane> inv_w;
+    Plane r, g, b;
+    PlaneOfAlpha a;
     HWY_INLINE explicit Planes(const BlockContext& c)
         : inv_w(c, 1),
           r(c, c.params->color_plane),
@@ -47,7 +53,8 @@ struct ColorSmooth {
           a(c, c.params->color_plane + 3) {}
   };
   template <class L>
-  using Once = Planes<std::conditional_t<kPacks, typename L::Plane, typename L::PlaneDouble>>;
+  using Once = Planes<std::conditional_t<kPacks, typename L::Plane, typename L::PlaneDouble>,
+                      std::conditional_t<kPacks, typename L::PlaneOfAlpha, typename L::PlaneDouble>>;
 
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
@@ -66,7 +73,8 @@ struct ColorSmooth {
       v.slot[kB] = InFloat(once.b.At(i), w);
       v.slot[kA] = InFloat(once.a.At(i), w);
     } else {
-      const VD inv_w = once.inv_w.At(i);
+      VD inv_w;
+      if constexpr (kDivides) inv_w = once.inv_w.At(i);
       v.slot[kR] = InDouble(once.r.At(i), inv_w);
       v.slot[kG] = InDouble(once.g.At(i), inv_w);
       v.slot[kB] = InDouble(once.b.At(i), inv_w);

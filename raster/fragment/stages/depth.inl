@@ -2,7 +2,7 @@
 
 template <CompareFunc F, bool kWrite>
 struct DepthTest {
-  static constexpr bool kKills = true, kPacks = false, kTakesDepth = true;
+  static constexpr bool kKills = true, kPacks = false, kTakesDepth = true, kInTiles = true;
   template <class L>
   struct Once {
     typename L::PlaneDouble depth;  // units of 2^-24, one half added: truncation rounds to nearest

@@ -1,7 +1,7 @@
 // To memory (spec 4.2), and only the channels the colour mask lets through. Bytes are rounded to nearest (spec 2.14.9).
 
 struct RoundRgba8 {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
@@ -12,7 +12,7 @@ struct RoundRgba8 {
 
 template <bool kMasked>
 struct WriteRgba8 {
-  static constexpr bool kKills = false, kPacks = !kMasked, kStoresPixels = true;
+  static constexpr bool kKills = false, kPacks = !kMasked, kStoresPixels = true, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
