@@ -19,27 +19,29 @@ ShapeVertex made_vertex(const ShapeVertex& in, double d_in, const ShapeVertex& o
   return v;
 }
 
-// Sutherland and Hodgman's step. `new_edge`: whether the edge along the plane is drawn.
+// Sutherland and Hodgman's step. `new_edge`: whether the edge along the plane is drawn. Edges keep their
+// order: the one that comes last is seen where two meet.
 template <class Distance>
 void cut_polygon(Distance distance, bool new_edge, const std::vector<ShapeVertex>& in,
                  std::vector<ShapeVertex>& out) {
   out.clear();
   if (in.empty()) return;
-  const ShapeVertex* previous = &in.back();
-  double d_previous = distance(*previous);
-  for (const ShapeVertex& current : in) {
-    const double d = distance(current);
-    if (d >= 0 && d_previous < 0) {
-      out.push_back(made_vertex(current, d, *previous, d_previous));
-      out.back().edge = previous->edge;
-    }
-    if (d < 0 && d_previous >= 0) {
-      out.push_back(made_vertex(*previous, d_previous, current, d));
+  const double d_first = distance(in.front());
+  double d = d_first;
+  for (size_t i = 0; i < in.size(); ++i) {
+    const bool last = i + 1 == in.size();
+    const ShapeVertex &from = in[i], &to = last ? in.front() : in[i + 1];
+    const double d_to = last ? d_first : distance(to);
+    if (d >= 0) out.push_back(from);
+    if (d >= 0 && d_to < 0) {
+      out.push_back(made_vertex(from, d, to, d_to));
       out.back().edge = new_edge;
     }
-    if (d >= 0) out.push_back(current);
-    previous = &current;
-    d_previous = d;
+    if (d < 0 && d_to >= 0) {
+      out.push_back(made_vertex(to, d_to, from, d));
+      out.back().edge = from.edge;
+    }
+    d = d_to;
   }
 }
 
