@@ -28,6 +28,7 @@ struct DemoOptions {
 
 struct DemoScene {
   SceneTime ours, ours_draft, osmesa, osmesa_float;
+  // Edges, in these: where ours and OSMesa show another triangle.
   Difference standard;  // ours to osmesa_float
   Difference draft;     // ours_draft to osmesa
   bool good() const;
@@ -35,12 +36,14 @@ struct DemoScene {
 
 struct Demo {
   SceneResult ours, ours_draft, osmesa, osmesa_float;
+  SceneResult our_owners, osmesa_owners;  // pictures of which triangle drew each pixel
   std::vector<DemoScene> scenes;
 };
 
 bool keeps_promise(const Difference& difference);
 
-// The results of the renderers are left in `out`: ours/, ours_draft/, osmesa/, osmesa_float/.
+// The results of the renderers are left in `out`: ours/, ours_draft/, osmesa/, osmesa_float/, and ours/owners/ and
+// osmesa/owners/.
 Demo run_demo(const DemoOptions& options, const std::function<void(const std::string&)>& progress);
 // The same from results of before, without drawing anything.
 Demo load_demo(const std::filesystem::path& out);

@@ -90,6 +90,14 @@ EdgeMask edges_from_mask(const Image& picture) {
   return mask;
 }
 
+EdgeMask edges_of_coverage(const Image& a, const Image& b) {
+  require_same_size(a, b.width, b.height, "the pictures of owners");
+  EdgeMask mask{a.width, a.height, std::vector<uint8_t>(a.pixels.size())};
+  std::transform(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), mask.is_edge.begin(),
+                 [](const Pixel& p, const Pixel& q) { return static_cast<uint8_t>(p != q); });
+  return mask;
+}
+
 double Difference::differing_percent() const {
   return pixels == 0 ? 0 : 100.0 * static_cast<double>(differing) / static_cast<double>(pixels);
 }

@@ -23,6 +23,9 @@ struct EdgeMask {
 EdgeMask find_edges(const Image& a, double threshold = kDefaultEdgeThreshold);
 // A picture that says where the edges are: every pixel that is not black.
 EdgeMask edges_from_mask(const Image& mask);
+// Where two pictures that paint every primitive in a colour of its own show another one. Throws ImageError
+// when the sizes do not agree.
+EdgeMask edges_of_coverage(const Image& owners_a, const Image& owners_b);
 
 struct ChannelDifference {
   double max = 0;   // levels

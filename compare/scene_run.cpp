@@ -41,6 +41,8 @@ ChildCommand command_of(const SceneJob& job, const fs::path& json) {
                        std::to_string(job.width) + "x" + std::to_string(job.height),
                        "--frames",
                        std::to_string(job.frames),
+                       "--paint",
+                       job.paint,
                        "--out",
                        job.out.string(),
                        "--json",

@@ -32,6 +32,7 @@ struct SceneJob {
   std::vector<int> cores;  // empty: any
   std::filesystem::path out;           // folder of the pictures, result.json and log.txt
   bool pictures = true;                // saved as PNG
+  std::string paint = "scene";         // what they show: ref_app's --paint
   std::optional<std::string> library;  // folder of our libOSMesa.so.8
 };
 

@@ -119,6 +119,16 @@ TEST(Edges, AreWhereTheFirstPictureJumps) {
   for (uint8_t edge : find_edges(a, 33).is_edge) EXPECT_EQ(edge, 0);
 }
 
+TEST(Edges, OfCoverageAreWhereAnotherPrimitiveIsShown) {
+  Image a(3, 3, {1, 0, 0, 255}), b = a;
+  EXPECT_EQ(edges_of_coverage(a, b).is_edge, std::vector<uint8_t>(9));
+  b.at(2, 1) = {0, 0, 1, 255};
+  const EdgeMask edges = edges_of_coverage(a, b);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) EXPECT_EQ(edges.is_edge[a.index(x, y)], x == 2 && y == 1);
+  EXPECT_THROW(edges_of_coverage(a, Image(3, 2, {})), ImageError);
+}
+
 TEST(Edges, AreFoundAcrossACorner) {
   Image a(3, 3, {0, 0, 0, 255});
   a.at(2, 2) = {255, 0, 0, 255};
