@@ -1,6 +1,8 @@
 #include "raster/batch.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 #include "raster/surface/clear.h"
 
@@ -88,22 +90,25 @@ bool Batch::is_full(uint32_t scale) const {
 }
 
 void Batch::deal_tiles(const Framebuffer::Impl& target, bool all, int workers) {
-  tiles.clear();
-  if (all) {
-    tiles.resize(target.tiles.size());
-    for (uint32_t i = 0; i < tiles.size(); ++i) tiles[i] = i;
-  } else {
+  // Tiles with something to draw as bits: they come out in order and each once.
+  marks_.assign((target.tiles.size() + 63) / 64, all ? ~uint64_t{0} : 0);
+  if (all && target.tiles.size() % 64 != 0) marks_.back() >>= 64 - target.tiles.size() % 64;
+  if (!all) {
     for (const Segment* segment : pending_)
-      tiles.insert(tiles.end(), segment->touched.begin(), segment->touched.end());
+      for (const uint32_t tile : segment->touched) marks_[tile / 64] |= uint64_t{1} << tile % 64;
   }
+  const auto for_each = [this](auto&& visit) {
+    for (size_t word = 0; word < marks_.size(); ++word)
+      for (uint64_t left = marks_[word]; left != 0; left &= left - 1)
+        visit(static_cast<uint32_t>(64 * word + static_cast<size_t>(std::countr_zero(left))));
+  };
   const auto count = static_cast<uint32_t>(workers);
-  const auto key = [&](uint32_t tile) { return uint64_t{owner(tile, target.tiles_x, count)} << 32 | tile; };
-  if (!all || count > 1)
-    std::sort(tiles.begin(), tiles.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
   ends.assign(count, 0);
-  for (const uint32_t tile : tiles) ++ends[owner(tile, target.tiles_x, count)];
-  for (uint32_t worker = 1; worker < count; ++worker) ends[worker] += ends[worker - 1];
+  for_each([&](uint32_t tile) { ++ends[owner(tile, target.tiles_x, count)]; });
+  uint32_t begin = 0;
+  for (uint32_t& end : ends) begin += std::exchange(end, begin);
+  tiles.resize(begin);
+  for_each([&](uint32_t tile) { tiles[ends[owner(tile, target.tiles_x, count)]++] = tile; });
 }
 
 void Batch::count_into(DeviceStatistics& statistics) const {

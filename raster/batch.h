@@ -52,8 +52,9 @@ class Batch {
   std::vector<std::unique_ptr<Segment>> all_segments_;
   std::vector<Segment*> pending_;
   bool last_is_open_ = false;
-  uint8_t targets_ = 0;   // colour planes drawn to
-  bool stencil_ = false;  // whether the stencil plane may be written
+  std::vector<uint64_t> marks_;  // of tiles, while they are dealt
+  uint8_t targets_ = 0;          // colour planes drawn to
+  bool stencil_ = false;         // whether the stencil plane may be written
   // A program and what it was made for.
   struct Entry {
     std::shared_ptr<const DrawState> state;
