@@ -273,6 +273,10 @@ struct PackedLanes {
     hn::Store(packed, DI(), pixels);
     const int32_t* offset = c.queue->offset + i;
     const int left = c.queue->count - i;
+    if (HWY_LIKELY(left >= kLanes)) {
+      for (int j = 0; j < kLanes; ++j) c.color[offset[j]] = static_cast<uint32_t>(pixels[j]);
+      return;
+    }
     for (int j = 0; j < kLanes; ++j)
       if (j < left) c.color[offset[j]] = static_cast<uint32_t>(pixels[j]);
   }

@@ -86,7 +86,21 @@ class Assembler {
   }
 
   void points(uint32_t first, uint32_t count) {
-    for (uint32_t k = first; k < first + count; ++k) point(vertex(k));
+    // Room for all at once: a list that grows at each point has its end written to memory and read again.
+    std::vector<PrimitiveRef>& primitives = segment_.primitives;
+    size_t end = primitives.size();
+    primitives.resize(end + count);
+    PrimitiveRef* const refs = primitives.data();
+    for (uint32_t k = first; k < first + count; ++k) {
+      const uint32_t v = vertex(k);
+      if (outcodes_[v] != 0) continue;
+      const VertexHead& at = head(v);
+      const int px = at.x >> kSubpixelBits, py = at.y >> kSubpixelBits;
+      if (px < bounds_.x0 || px >= bounds_.x1 || py < bounds_.y0 || py >= bounds_.y1) continue;
+      push_to_bin(segment_, px / kTileSize, py / kTileSize, uint32_t(end));
+      refs[end++] = {{v, v, v}, PrimitiveKind::point, false, false, 0};
+    }
+    primitives.resize(end);
   }
 
  private:
@@ -198,15 +212,6 @@ class Assembler {
     segment_.plane_sources.push_back(planes);
     segment_.cut_triangles.push_back(cut);
     bin_box(segment_, tile_box(box), append({{index, 0, 0}, PrimitiveKind::line, true, false, 0}));
-  }
-
-  void point(uint32_t v) {
-    if (outcodes_[v] != 0) return;
-    const VertexHead& at = head(v);
-    const int px = at.x >> kSubpixelBits, py = at.y >> kSubpixelBits;
-    const Rect box = intersect({px, py, px + 1, py + 1}, bounds_);
-    if (box.empty()) return;
-    bin_box(segment_, tile_box(box), append({{v, v, v}, PrimitiveKind::point, false, false, 0}));
   }
 
   Segment& segment_;

@@ -212,36 +212,6 @@ void cover_line(const LineEnds& ends, int width, const LineStipple& stipple, int
   walk_line(ends, width, stipple, tile_x, tile_y, bounds, middle, [&](int x, int y) { set_pixel(out, x, y); });
 }
 
-void list_line(const LineEnds& ends, const LineStipple& stipple, int tile_x, int tile_y, const Rect& bounds,
-               PixelList& out) {
-  out.count = 0;
-  out.touched = 0;
-  const AxisLine axis(ends, 1);
-  const Rect area = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
-  if (area.empty() || axis.du == 0) return;
-  const LineRun run = stipple.on ? line_run(ends, 1) : LineRun{0, 0};
-  const bool steep = axis.steep;
-  uint8_t* const along = steep ? out.y : out.x;
-  uint8_t* const across = steep ? out.x : out.y;
-  const int u_tile = steep ? tile_y : tile_x, v_tile = steep ? tile_x : tile_y;
-  const int64_t v_low = steep ? area.x0 : area.y0, v_high = steep ? area.x1 : area.y1;
-  const int64_t first = std::max<int64_t>(axis.first_column(), steep ? area.y0 : area.x0);
-  const int64_t last = std::min<int64_t>(axis.last_column(), (steep ? area.y1 : area.x1) - 1);
-  int count = 0;
-  for (ColumnWalk walk(axis, first); walk.u() <= last; walk.next()) {
-    const int64_t v = walk.fragment();
-    if (v < v_low || v >= v_high) continue;  // kNoRow too
-    if (stipple.on && !passes(stipple, uint32_t(std::abs(int(walk.u()) - run.first)))) continue;
-    along[count] = uint8_t(walk.u() - u_tile);
-    across[count] = uint8_t(v - v_tile);
-    ++count;
-  }
-  for (int i = 0; i < count; ++i) out.touched |= uint64_t{1} << (out.y[i] / 8u * 8u + out.x[i] / 8u);
-  out.count = count;
-  const int group = count / PixelList::kGroup * PixelList::kGroup;
-  for (; count % PixelList::kGroup != 0; ++count) out.x[count] = out.x[group], out.y[count] = out.y[group];
-}
-
 Rect point_square(int32_t x, int32_t y, int size) {
   const int32_t even = size % 2 == 0 ? kSubpixelScale / 2 : 0;
   const int left = ((x + even) >> kSubpixelBits) - size / 2,

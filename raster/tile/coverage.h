@@ -19,13 +19,10 @@ struct LineEnds {
   int32_t x0, y0, x1, y1;
 };
 
-// Pixels of a tile one by one, in the order they were found, each once. Behind the last, up to a multiple of
-// kGroup, stands the first of its group again.
+// Pixels of a tile one by one, each once, relative to the tile.
 struct PixelList {
-  static constexpr int kCapacity = kTileSize, kGroup = 8;
-  uint8_t x[kCapacity], y[kCapacity];  // relative to the tile
+  uint8_t x[kTileSize], y[kTileSize];
   int count;
-  uint64_t touched;  // blocks they lie in, numbered as in TileCoverage
 };
 
 // Where along a line there are fragments (spec 3.4.2, 3.4.2.2): bit s / repeat % 16 of the pattern, s
@@ -45,9 +42,9 @@ struct LineStipple {
 void cover_line(const LineEnds& ends, int width, const LineStipple& stipple, int tile_x, int tile_y,
                 const Rect& bounds, const Rect& middle, TileCoverage& out);
 
-// The same for a line of width 1: it has at most one fragment in a column or, where it is steep, in a row.
-void list_line(const LineEnds& ends, const LineStipple& stipple, int tile_x, int tile_y, const Rect& bounds,
-               PixelList& out);
+// The same for a line of width 1, which has at most one fragment in a column or, where it is steep, in a row:
+// what raster/tile/lines.inl draws it by, a vector of columns at a time.
+void list_line(const LineEnds& ends, int tile_x, int tile_y, const Rect& bounds, PixelList& out);
 
 // The fragments of a line (columns of a wide one): how many there are, and the coordinate of the first one
 // along the longer axis; the others follow in the direction of the line.

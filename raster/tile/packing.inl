@@ -150,17 +150,6 @@ struct Packer {
     }
   }
 
-  // Of one primitive at the pixels of a list, which come in any order, each once.
-  HWY_INLINE void AppendList(const SetupBatch& s, int lane, const PixelList& list, const PipelineProgram& program,
-                             int plane_count, uint32_t* depth) {
-    const DIq di;
-    const hn::Rebind<uint8_t, DIq> bytes;
-    for (int i = 0; i < list.count; i += kQueueLanes) {
-      const auto px = hn::PromoteTo(di, hn::LoadU(bytes, list.x + i)), py = hn::PromoteTo(di, hn::LoadU(bytes, list.y + i));
-      AppendGroup(s, lane, px, py, list.count - i, program, plane_count, depth);
-    }
-  }
-
   // A point's fragment, at a pixel of the tile, if it passes the depth test. Its planes are level, so that they need no
   // set-up: `color` is its colour, 0..255, or null where none is asked for.
   HWY_INLINE void AppendPoint(double z, const float* color, int x, int y, const PipelineProgram& program,
@@ -178,37 +167,49 @@ struct Packer {
       for (int i = first; i < queue.count; ++i) queue.plane[color_plane + k][i] = s.flat[k][lane];
   }
 
- private:
+  static HWY_INLINE int TileOffset(int x, int y) {
+    return (y & 56) * kBlockPixels + (x & 56) * kBlockSize + (y & 7) * kBlockSize + (x & 7);
+  }
+
+  static HWY_INLINE hn::Vec<DFq> PlaneAt(const SetupBatch& s, int lane, int plane, hn::Vec<DFq> dx, hn::Vec<DFq> dy) {
+    const DFq d;
+    const auto row = hn::Add(hn::Set(d, s.f0_f[plane][lane]), hn::Mul(hn::Set(d, s.dfdy_f[plane][lane]), dy));
+    return hn::Add(row, hn::Mul(hn::Set(d, s.dfdx_f[plane][lane]), dx));
+  }
+
   // Fragments at the first `count` lanes' pixels, those that pass the depth test. Lanes beyond stand for the first one's.
   HWY_INLINE void AppendGroup(const SetupBatch& s, int lane, hn::Vec<DIq> px, hn::Vec<DIq> py, int count,
                               const PipelineProgram& program, int plane_count, uint32_t* depth) {
     const DFq df;
     const DIq di;
     const auto offset = TileOffset(px, py);
+    const int first = (variant & kAffine) != 0 ? 2 : 1;  // only perspective asks for 1/w
+    if (depth == nullptr) {
+      const auto dx = hn::Add(hn::ConvertTo(df, px), hn::Set(df, static_cast<float>(s.anchor_x[lane])));
+      const auto dy = hn::Add(hn::ConvertTo(df, py), hn::Set(df, static_cast<float>(s.anchor_y[lane])));
+      for (int p = first; p < plane_count; ++p) hn::StoreU(PlaneAt(s, lane, p, dx, dy), df, queue.plane[p] + queue.count);
+      hn::StoreU(offset, di, queue.offset + queue.count);
+      queue.count += count < kQueueLanes ? count : kQueueLanes;
+      return;
+    }
     auto live = hn::Lt(hn::Iota(di, 0), hn::Set(di, count));
-    if (depth != nullptr) live = DepthTest(s, lane, px, py, offset, live, program.depth, depth);
+    live = DepthTest(s, lane, px, py, offset, live, program.depth, depth);
     const auto dx = hn::Add(hn::ConvertTo(df, px), hn::Set(df, static_cast<float>(s.anchor_x[lane])));
     const auto dy = hn::Add(hn::ConvertTo(df, py), hn::Set(df, static_cast<float>(s.anchor_y[lane])));
     const Squeeze squeeze(live);
-    for (int p = 1; p < plane_count; ++p) {
-      const auto row = hn::Add(hn::Set(df, s.f0_f[p][lane]), hn::Mul(hn::Set(df, s.dfdy_f[p][lane]), dy));
-      const auto value = hn::Add(row, hn::Mul(hn::Set(df, s.dfdx_f[p][lane]), dx));
-      hn::StoreU(squeeze(value), df, queue.plane[p] + queue.count);
-    }
+    for (int p = first; p < plane_count; ++p)
+      hn::StoreU(squeeze(PlaneAt(s, lane, p, dx, dy)), df, queue.plane[p] + queue.count);
     // Not CompressStore: to memory, that instruction takes a hundred cycles on Zen 4.
     hn::StoreU(squeeze(offset), di, queue.offset + queue.count);
     queue.count += static_cast<int>(hn::CountTrue(di, live));
   }
 
+ private:
   static HWY_INLINE bool TestPoint(double z, const DepthState& test, uint32_t& memory) {
     const auto value = static_cast<int32_t>(z * kDepthScale + 0.5), old = static_cast<int32_t>(memory);
     if (!PassesDepth(test.func, value, old)) return false;
     if (test.write) memory = static_cast<uint32_t>(value);
     return true;
-  }
-
-  static HWY_INLINE int TileOffset(int x, int y) {
-    return (y & 56) * kBlockPixels + (x & 56) * kBlockSize + (y & 7) * kBlockSize + (x & 7);
   }
 
   static HWY_INLINE hn::Vec<DIq> TileOffset(hn::Vec<DIq> x, hn::Vec<DIq> y) {

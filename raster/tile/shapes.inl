@@ -73,47 +73,11 @@ void RunLine(TileContext& t, const PrimitiveRef& ref, const DrawRecord& draw, co
     return RunSmooth(t, lane, smooth_line(ends, plan.smooth_line_width, stipple), plan.line_coverage,
                      WindowLimit(t, draw), false);
   const bool wide = plan.line_width > 1;
-  if (!wide && Packs(t, lane)) {
-    PixelList list;
-    list_line(ends, stipple, t.x, t.y, draw.bounds, list);
-    if (list.count > 0) TestAndPackList(t, lane, list);
-    return;
-  }
   TileCoverage coverage;
   const Viewport& v = draw.state->viewport;
   const Rect middle = wide ? Rect{v.x, v.y, v.x + v.width, v.y + v.height} : draw.bounds;
   cover_line(ends, plan.line_width, stipple, t.x, t.y, wide ? draw.window : draw.bounds, middle, coverage);
   RunCoverage(t, lane, coverage);
-}
-
-inline constexpr size_t kPointsAhead = 8;  // their vertices are asked for while others are drawn
-
-// Points of one pixel whose colour is all that their fragments are made from. At standard accuracy it is the same float
-// whether a plane in float or one in double gives it.
-HWY_INLINE bool PacksPoints(const DrawRecord& draw) {
-  const VertexLayout& layout = draw.vertices.layout;
-  return draw.program->packs && layout.tex_coord < 0 && layout.fog < 0 && !draw.shape.smooth_points &&
-         draw.shape.point_size == 1 && draw.state->accuracy.interpolation != Level::exact;
-}
-
-// False: not such a point.
-bool RunWaitingPoint(TileContext& t, const Segment& segment, const DrawRecord& draw, uint32_t id) {
-  const PrimitiveRef& ref = segment.primitives.data()[id];
-  if (ref.kind != PrimitiveKind::point || ref.cut) return false;
-  const VertexLayout& layout = draw.vertices.layout;
-  const VertexHead* head = Head(draw.vertices, layout.stride(), ref.v[0]);
-  const int x = (head->x >> kSubpixelBits) - t.x, y = (head->y >> kSubpixelBits) - t.y;
-  float color[4];
-  if (layout.color >= 0) {
-    const bool to_bytes = draw.program->params.rounds_to_bytes;
-    const int place = ref.back_facing && layout.back_color >= 0 ? layout.back_color : layout.color;
-    const float* from = Attributes(t.flat_color ? Head(draw.vertices, layout.stride(), ref.v[ref.provoking]) : head) + place;
-    for (int k = 0; k < 4; ++k)
-      color[k] = t.flat_color ? color_level(from[k], to_bytes) : static_cast<float>(static_cast<double>(from[k]) * 255.0);
-  }
-  uint32_t* depth = PreparePacking(t, kAffine, 1, uint64_t{1} << (y / kBlockSize * 8 + x / kBlockSize));
-  t.packer.AppendPoint(head->z, layout.color >= 0 ? color : nullptr, x, y, *t.program, depth);
-  return true;
 }
 
 void RunPoint(TileContext& t, const DrawRecord& draw, const ShapeCorners& c, int lane) {

@@ -41,7 +41,7 @@ struct TileContext {
   uint32_t deepest = 0;  // of the blocks' depth_max, where that is known
   PixelNote* notes;      // of the tile's pixels, where a view asks for them; then nothing waits to be packed
   bool projective;
-  bool packs_points;  // points of one pixel wait with the others, without any set-up
+  bool packs_points, streams_points;  // points of one pixel wait with the others, without any set-up
   TileStatistics* statistics;
   BlockContext block;
   SetupBatch setup;
@@ -202,15 +202,6 @@ void TestAndPack(TileContext& t, int lane, int x, int y, uint64_t mask, uint64_t
   if (t.flat_color) t.packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
 }
 
-// The same for the pixels of a list.
-void TestAndPackList(TileContext& t, int lane, const PixelList& list) {
-  const SetupBatch& s = t.setup;
-  uint32_t* depth = PreparePacking(t, s.variant[lane], list.count, list.touched);
-  const int first = t.packer.queue.count;
-  t.packer.AppendList(s, lane, list, *t.program, t.plane_count, depth);
-  if (t.flat_color) t.packer.SetFlatColor(s, lane, t.program->params.color_plane, first);
-}
-
 void PackTriangle(TileContext& t, int lane) {
   const SetupBatch& s = t.setup;
   const int x = s.min_x[lane], y = s.min_y[lane];
@@ -331,7 +322,10 @@ void RunTriangle(TileContext& t, int lane) {
   else WalkTriangle(t, lane, packs);
 }
 
+#include "raster/tile/lines.inl"
 #include "raster/tile/shapes.inl"
+
+#include "raster/tile/points.inl"
 
 #include "raster/tile/image.inl"
 
@@ -349,6 +343,19 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   t.flat_color = draw.vertices.layout.color >= 0 && draw.state->raster.flat_shading;
   t.projective = draw.vertices.layout.projective;
   t.packs_points = t.notes == nullptr && PacksPoints(draw);
+  t.streams_points = t.packs_points && StreamsPoints(draw);
+}
+
+// How many of the ascending ids come before `end`.
+HWY_INLINE size_t CountBelow(const uint32_t* ids, size_t count, uint32_t end) {
+  if (count == 0 || ids[count - 1] < end) return count;
+  size_t low = 0;
+  while (low < count) {
+    const size_t middle = low + (count - low) / 2;
+    if (ids[middle] < end) low = middle + 1;
+    else count = middle;
+  }
+  return low;
 }
 
 void RunSegment(TileContext& t, const Segment& segment) {
@@ -366,6 +373,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
       ++at;
       continue;
     }
+    if (t.streams_points) at += StreamPoints(t, segment, record, ids + at, CountBelow(ids + at, total - at, end));
     while (at < total && ids[at] < end) {
       if (t.packs_points && RunWaitingPoint(t, segment, record, ids[at])) {
         if (at + kPointsAhead < total)
@@ -382,7 +390,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
       const size_t next = at + static_cast<size_t>(count);
       PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + next,
                       total - next < kSetupLanes ? total - next : kSetupLanes);
-      for (int lane = 0; lane < count; ++lane) {
+      for (int lane = PackLines(t, segment, record, ids + at, count); lane < count; ++lane) {
         const PrimitiveRef& ref = segment.primitives.data()[ids[at + static_cast<size_t>(lane)]];
         if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
         else RunShape(t, ref, segment, record, lane);
@@ -426,6 +434,15 @@ RunTileFunction select_run_tile() { HALFSPACE_SELECT_FUNCTION(RunTile) }
 void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile,
               TileStatistics& statistics) {
   select_run_tile()(segments, framebuffer, tile, statistics);
+}
+
+namespace {
+using ListLineFunction = void (*)(const LineEnds&, int, int, const Rect&, PixelList&);
+ListLineFunction select_list_line() { HALFSPACE_SELECT_FUNCTION(ListLine) }
+}  // namespace
+
+void list_line(const LineEnds& ends, int tile_x, int tile_y, const Rect& bounds, PixelList& out) {
+  select_list_line()(ends, tile_x, tile_y, bounds, out);
 }
 }  // namespace halfspace::raster
 #endif

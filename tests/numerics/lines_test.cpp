@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <random>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "raster/tile/coverage.h"
+#include "tests/support/canvas.h"
 
 namespace halfspace::raster {
 namespace {
@@ -61,15 +63,15 @@ Pixels covered(int x0, int y0, int x1, int y1, int tile_x, int tile_y, const Rec
         pixels.insert({tile_x + b % 8 * 8 + i % 8, tile_y + b / 8 * 8 + i / 8});
     }
   }
-  PixelList list;
-  list_line({x0, y0, x1, y1}, {}, tile_x, tile_y, bounds, list);
-  Pixels listed;
-  for (int i = 0; i < list.count; ++i) {
-    listed.insert({tile_x + list.x[i], tile_y + list.y[i]});
-    EXPECT_TRUE(list.touched >> (list.y[i] / 8 * 8 + list.x[i] / 8) & 1);
+  for (const std::string& isa : test::isa_levels()) {
+    const test::IsaScope scope(isa);
+    PixelList list;
+    list_line({x0, y0, x1, y1}, tile_x, tile_y, bounds, list);
+    Pixels listed;
+    for (int i = 0; i < list.count; ++i) listed.insert({tile_x + list.x[i], tile_y + list.y[i]});
+    EXPECT_EQ(listed.size(), size_t(list.count));
+    EXPECT_EQ(listed, pixels) << isa;
   }
-  EXPECT_EQ(listed.size(), size_t(list.count));
-  EXPECT_EQ(listed, pixels);
   return pixels;
 }
 
