@@ -236,7 +236,9 @@ constexpr Entry MakeEntry() {
   if constexpr ((BodyOf<ids>::Type::kPacks && ...)) entry.kernels.packed = &RunStages<PackedLanes, ids...>;
   constexpr bool kInTiles = (RunsInTiles<typename BodyOf<ids>::Type> && ...);
   constexpr bool kStores = (StoresPixels<typename BodyOf<ids>::Type> || ...);
-  if constexpr (kInTiles && kStores && TakenSlots<ids...>() == 0) entry.kernels.tile = &RunTileBlocks<ids...>;
+  constexpr bool kStoresDepth = sizeof...(ids) == 1 && ((ids == StageId::depth_always) || ...);
+  if constexpr (kInTiles && (kStores || kStoresDepth) && TakenSlots<ids...>() == 0)
+    entry.kernels.tile = &RunTileBlocks<ids...>;
   if constexpr (sizeof...(ids) == 1) {
     entry.kernels.given_depth = entry.kernels.block;
     if constexpr ((TakesDepth<typename BodyOf<ids>::Type> && ...))

@@ -396,6 +396,20 @@ bool take_flat_color(StageList& list) {
   return false;
 }
 
+// Takes the depth test off the list's front.
+bool take_depth_test(StageList& list) {
+  if (list.count == 0) return false;
+  std::copy(list.ids.begin() + 1, list.ids.begin() + list.count, list.ids.begin());
+  list.ids[static_cast<size_t>(--list.count)] = StageId{};
+  return true;
+}
+
+TileCode find_tile_code(const StageList& list) {
+  if (list.count < 2) return {};
+  const KernelPair kernels = find_kernels(list.ids.data(), list.count);
+  return {kernels.tile, kernels.block, stores_one_value(list), overwrites(list)};
+}
+
 BlockProgram cover_blocks(const CodeKey& key, const StageList& list) {
   BlockProgram blocks;
   const bool fuses = key.fuse && !key.given_depth;
@@ -405,10 +419,10 @@ BlockProgram cover_blocks(const CodeKey& key, const StageList& list) {
     blocks.head = blocks.count;
   }
   cover(list, key.both_planes ? list.tail : 0, list.count, fuses, kind, blocks);
-  if (key.both_planes || key.given_depth || blocks.count != 1) return blocks;
-  blocks.fills = stores_one_value(list);
-  blocks.tile = find_kernels(list.ids.data(), list.count).tile;
-  blocks.overwrites = overwrites(list);
+  if (key.both_planes || key.given_depth || !key.fuse) return blocks;
+  blocks.whole = find_tile_code(list);
+  StageList rest = list;
+  if (key.accepts_nearer && take_depth_test(rest)) blocks.nearer = find_tile_code(rest);
   return blocks;
 }
 
@@ -418,6 +432,8 @@ ProgramCode find_code(const CodeKey& key) {
     code.variants[variant] = cover_blocks(key, key.lists[variant]);
   StageList even = key.lists[kAffine];
   if (take_flat_color(even)) code.even = cover_blocks(key, even);
+  constexpr StageId kStoring[] = {StageId::depth_always};
+  code.stores_depth = find_kernels(kStoring, 1).tile;
   code.packs = key.may_pack;
   for (unsigned variant = 0; variant <= kAffine; ++variant) {
     const StageList& list = key.lists[variant];
@@ -456,6 +472,8 @@ void build_program(const DrawState& state, const VertexLayout& layout, ColorForm
   program.depth = state.depth;
   program.depth.test = depth;
   const bool stencil = needs_stencil(state.stencil);
+  const CompareFunc func = state.depth.func;
+  const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
   CodeKey key;
   for (unsigned variant = 0; variant < kVariantCount; ++variant)
     key.lists[variant] = list_stages(state, layout, format, variant);
@@ -466,9 +484,8 @@ void build_program(const DrawState& state, const VertexLayout& layout, ColorForm
   key.may_pack =
       !needs_alpha_test(state.alpha_test) && !program.both_planes && !stencil && !state.polygon.stipple;
   key.tests_depth = depth;
+  key.accepts_nearer = depth && lowers && !stencil && !needs_alpha_test(state.alpha_test);
   static_cast<ProgramCode&>(program) = cache.find(key);
-  const CompareFunc func = state.depth.func;
-  const bool lowers = func == CompareFunc::less || func == CompareFunc::less_equal;
   program.reads_depth = depth;
   program.reads_stencil = stencil;
   program.writes_depth = depth && state.depth.write;

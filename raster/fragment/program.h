@@ -28,14 +28,21 @@ struct StageList {
   bool operator==(const StageList&) const = default;
 };
 
+// A list of stages as one kernel, for whole blocks of a tile. `tile` is null where there is none.
+struct TileCode {
+  BlockFunction tile = nullptr;   // on BlockContext::blocks
+  BlockFunction block = nullptr;  // the same on one block
+  bool fills = false;             // it stores the same pixel value everywhere, whatever was there
+  bool overwrites = false;        // what its pixels were before does not matter
+};
+
 // A stage list as kernels to call one after another; each does one or several stages.
 struct BlockProgram {
   std::array<BlockFunction, kMaxStages> kernels{};
   std::array<StageId, kMaxStages> stages{};  // the first, or only, stage of each kernel
   int count = 0;
-  bool fills = false;  // one kernel that stores the same pixel value everywhere, whatever was there
-  BlockFunction tile = nullptr;  // does all of it, on whole blocks of a tile (BlockContext::blocks); null: none does
-  bool overwrites = false;       // with `tile`: what its pixels were before does not matter
+  TileCode whole;   // all of it
+  TileCode nearer;  // all but the depth test it begins with
   int head = 0;  // kernels before the first that touches colour memory, where there are two planes to do that to
   void run(BlockContext& block) const { run(block, 0, count); }
   void run_head(BlockContext& block) const { run(block, 0, head); }
@@ -56,6 +63,7 @@ struct ProgramCode {
   // Small triangles: depth test first, then these on packed fragments. [0] perspective, [kAffine] affine, in float.
   BlockProgram packed[2];
   bool packs = false;
+  BlockFunction stores_depth = nullptr;  // on whole blocks of a tile, the depth and nothing else
 };
 
 // All that decides the code. What is not there are values, which often change from draw to draw.
@@ -65,6 +73,7 @@ struct CodeKey {
   bool fuse = false, both_planes = false, given_depth = false;
   bool may_pack = false;    // nothing forbids it but what its stages are
   bool tests_depth = false;  // by the lists' first stage
+  bool accepts_nearer = false;  // that stage does no more than to let nearer fragments through
   bool operator==(const CodeKey&) const = default;
 };
 

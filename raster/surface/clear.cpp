@@ -114,12 +114,14 @@ void clear_tile_depth(const TileClear& at, uint32_t value) {
     at.visit_pixels(false, [&](int block, int i) { pixels[block * kBlockPixels + i] = value; });
   }
   for (int block = 0; block < kTileBlocks; ++block) {
-    if ((cut.whole >> block & 1) != 0) state.depth_max[block] = value;
+    if ((cut.whole >> block & 1) != 0) state.depth_max[block] = state.depth_min[block] = value;
     else if ((cut.partial >> block & 1) != 0) state.depth_max[block] = std::max(state.depth_max[block], value);
   }
+  state.depth_min_holds = (state.depth_min_holds & ~cut.partial) | cut.whole;
   if (cut.whole == 0) return;
   state.clear_depth = value;
   state.depth_is_clear |= cut.whole;
+  state.depth_on_plane &= ~cut.whole;
 }
 
 void clear_tile_stencil(const TileClear& at, uint8_t value, uint8_t mask) {

@@ -76,6 +76,18 @@ void Framebuffer::Impl::settle_depth(size_t tile, uint64_t mask) {
   settle(state.depth_is_clear, mask, [&](int block) {
     std::fill_n(depth_tile(tile) + block * kBlockPixels, kBlockPixels, state.clear_depth);
   });
+  if ((state.depth_on_plane & mask) == 0) return;
+  const DepthPlane plane = state.depth_plane;
+  double across[kTileSize];
+  for (int x = 0; x < kTileSize; ++x) across[x] = plane.across(x);
+  settle(state.depth_on_plane, mask, [&](int block) {
+    uint32_t* out = depth_tile(tile) + block * kBlockPixels;
+    const double* columns = across + block % 8 * kBlockSize;
+    for (int y = 0; y < kBlockSize; ++y, out += kBlockSize) {
+      const double row = plane.row(block / 8 * kBlockSize + y);
+      for (int x = 0; x < kBlockSize; ++x) out[x] = DepthPlane::depth(row, columns[x]);
+    }
+  });
 }
 
 void Framebuffer::Impl::settle_stencil(size_t tile, uint64_t mask) {

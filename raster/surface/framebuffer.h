@@ -29,14 +29,33 @@ struct ColorMarks {
   uint32_t rgba8 = 0;
   Color value;  // the same colour, for rgba32f
 };
+// The depth of a triangle that covers whole blocks and is nearer than all there was: nobody may look at it before the
+// next such triangle comes. As SetupBatch has it; (dx, dy): the centre of the tile's first pixel less the anchor.
+struct DepthPlane {
+  double f0 = 0, dfdx = 0, dfdy = 0, dx = 0, dy = 0;
+  // Of a row's pixel, what the depth test makes of it.
+  double row(int y) const { return f0 + dfdy * (dy + y); }
+  double across(int x) const { return dfdx * (dx + x); }
+  static uint32_t depth(double row, double across) {
+    const double sum = row + across;
+    return static_cast<uint32_t>(static_cast<int32_t>(sum > 0 ? sum : 0));
+  }
+};
+
 struct TileState {
   ColorMarks color[kMaxColorPlanes];
   uint64_t depth_is_clear = ~uint64_t{0};
+  uint64_t depth_on_plane = 0;  // blocks that hold depth_plane's depth; never those that are clear
+  // Blocks whose depth is not in memory.
+  uint64_t depth_marks() const { return depth_is_clear | depth_on_plane; }
   uint32_t clear_depth = 0;
+  DepthPlane depth_plane;
   uint8_t clear_stencil = 0;
   uint64_t stencil_is_clear = ~uint64_t{0}, accum_is_clear = ~uint64_t{0};
   int16_t clear_accum[4] = {};
   uint32_t depth_max[kTileBlocks] = {};  // no pixel of the block lies deeper: 24-bit, coarse z
+  uint32_t depth_min[kTileBlocks] = {};  // nor nearer than this, where depth_min_holds
+  uint64_t depth_min_holds = 0;
 };
 
 // A framebuffer's storage as the tile workers see it.
@@ -75,7 +94,7 @@ struct Framebuffer::Impl {
 
   // The tile's pixels inside the framebuffer, in window coordinates.
   Rect tile_rect(size_t tile) const;
-  // Writes the clear value into the blocks of `mask` that still only hold it as a mark.
+  // Writes the value into the blocks of `mask` that still only hold it as a mark.
   void settle_color(size_t tile, uint64_t mask, int plane);
   void settle_depth(size_t tile, uint64_t mask);
   void settle_stencil(size_t tile, uint64_t mask);

@@ -230,10 +230,15 @@ void read_row_float(const Framebuffer::Impl& fb, int plane, int x0, int x1, int 
 void read_row_depth(const Framebuffer::Impl& fb, int x0, int x1, int y, uint32_t* out) {
   for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
     const TileState& state = fb.tiles[row.tile];
-    if (is_marked(state.depth_is_clear, row.block))
+    if (is_marked(state.depth_is_clear, row.block)) {
       std::fill_n(out + at, row.count, state.clear_depth);
-    else
+    } else if (is_marked(state.depth_on_plane, row.block)) {
+      const DepthPlane& plane = state.depth_plane;
+      for (int i = 0; i < row.count; ++i)
+        out[at + i] = DepthPlane::depth(plane.row(y % kTileSize), plane.across((x0 + at + i) % kTileSize));
+    } else {
       std::copy_n(fb.depth_tile(row.tile) + row.block * kBlockPixels + row.first_pixel, row.count, out + at);
+    }
   });
 }
 

@@ -51,24 +51,14 @@ struct TileContext {
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
 };
 
+#include "raster/tile/coarse_depth.inl"
 #include "raster/tile/fill.inl"
 
-HWY_INLINE bool BlockIsHidden(const TileContext& t, int lane, int block) {
-  const double least = BoxDepth(t.setup, lane, t.block.dx, t.block.dy, kBlockSize - 1, kBlockSize - 1, -1);
-  return IsBehind(least, t.state->depth_max[block]);
-}
-
-HWY_INLINE void UpdateDepthMax(TileContext& t, int lane, int block, bool full) {
-  if (t.program->depth_may_grow) {
-    t.state->depth_max[block] = kDepthMax;
-    t.knows_deepest = false;
-  } else if (full && t.program->depth_pass_lowers) {
-    const double greatest = BoxDepth(t.setup, lane, t.block.dx, t.block.dy, kBlockSize - 1, kBlockSize - 1, 1) + 1.0;
-    if (greatest >= 0 && greatest < static_cast<double>(t.state->depth_max[block])) {
-      t.state->depth_max[block] = static_cast<uint32_t>(greatest);
-      t.knows_deepest = false;
-    }
-  }
+// Of each bit of `mask`, as many as `each`: of blocks, all their pixels.
+HWY_INLINE void CountFragments(TileContext& t, int lane, uint64_t mask, int each = kBlockPixels) {
+  const uint64_t fragments = static_cast<uint64_t>(__builtin_popcountll(mask)) * static_cast<uint64_t>(each);
+  t.statistics->fragments += fragments;
+  if ((t.setup.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
 }
 
 HWY_INLINE void SelectColor(TileContext& t, int block, int plane) {
@@ -109,7 +99,7 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   if (program.rejects_deeper && BlockIsHidden(t, lane, block)) return;
   if (program.reads_depth) {
     const uint64_t bit = uint64_t{1} << block;
-    if ((t.state->depth_is_clear & bit) != 0) t.framebuffer->settle_depth(t.tile, bit);
+    if ((t.state->depth_marks() & bit) != 0) t.framebuffer->settle_depth(t.tile, bit);
     c.depth = t.framebuffer->depth_tile(t.tile) + block * kBlockPixels;
   }
   if (program.reads_stencil) {
@@ -121,13 +111,11 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   if (HWY_UNLIKELY(t.notes != nullptr)) NoteBlock(t, lane, block, mask);
   c.lane = lane;
   c.live = mask;
-  const auto fragments = static_cast<uint64_t>(__builtin_popcountll(mask));
-  t.statistics->fragments += fragments;
-  if ((s.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
+  CountFragments(t, lane, mask, 1);
   const BlockProgram& stages = t.even ? program.even : program.variants[s.variant[lane]];
   if (program.both_planes) RunOnBothPlanes(t, stages, block);
   else stages.run(c);
-  UpdateDepthMax(t, lane, block, mask == ~uint64_t{0});
+  UpdateDepthBounds(t, lane, block, mask == ~uint64_t{0});
 }
 
 // Pixels of a block that lie in `limit` (relative to the tile).
@@ -167,12 +155,13 @@ HWY_INLINE uint64_t WindowBlocks(int x0, int y0, int x1, int y1) {
 }
 
 HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
-  if (t.program->reads_depth && (t.state->depth_is_clear & blocks) != 0) t.framebuffer->settle_depth(t.tile, blocks);
+  if (t.program->reads_depth && (t.state->depth_marks() & blocks) != 0) t.framebuffer->settle_depth(t.tile, blocks);
   const int plane = t.program->plane;
   if ((t.state->color[plane].is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks, plane);
   if (t.program->depth_may_grow)
     for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) t.state->depth_max[__builtin_ctzll(todo)] = kDepthMax;
   if (t.program->depth_may_grow) t.knows_deepest = false;
+  if (t.program->writes_depth) t.state->depth_min_holds &= ~blocks;
 }
 
 // Makes room for `count` fragments of `variant` in `blocks` among those that wait, and gives the depth they are tested
@@ -222,45 +211,6 @@ void WalkBlock(TileContext& t, int lane, int block, uint64_t mask, bool packs) {
   RunBlock(t, lane, block, mask);
 }
 
-// A block in a call of its own costs less than what a whole tile's planes do, where there are but a few.
-constexpr int kFewBlocks = 4;
-
-// Blocks that are covered all over, by the kernel that takes many.
-void RunWholeBlocks(TileContext& t, int lane, uint64_t blocks, const BlockProgram& stages) {
-  const SetupBatch& s = t.setup;
-  const PipelineProgram& program = *t.program;
-  if (__builtin_popcountll(blocks) < kFewBlocks) {
-    for (; blocks != 0; blocks &= blocks - 1) RunBlock(t, lane, __builtin_ctzll(blocks), ~uint64_t{0});
-    return;
-  }
-  if (program.rejects_deeper) blocks &= ~HiddenBlocks(t, lane, blocks);
-  if (blocks == 0) return;
-  BlockContext& c = t.block;
-  if (program.reads_depth) {
-    if ((t.state->depth_is_clear & blocks) != 0) t.framebuffer->settle_depth(t.tile, blocks);
-    c.depth = t.framebuffer->depth_tile(t.tile);
-  }
-  ColorMarks& marks = t.state->color[program.plane];
-  if (stages.overwrites) marks.is_clear &= ~blocks;
-  else if ((marks.is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks, program.plane);
-  c.color = t.framebuffer->color_tile<uint32_t>(t.tile, program.plane);
-  c.dx = s.anchor_x[lane];
-  c.dy = s.anchor_y[lane];
-  c.lane = lane;
-  c.blocks = blocks;
-  stages.tile(c);
-  const auto fragments = static_cast<uint64_t>(__builtin_popcountll(blocks)) * kBlockPixels;
-  t.statistics->fragments += fragments;
-  if ((s.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
-  if (!program.depth_may_grow && !program.depth_pass_lowers) return;
-  for (; blocks != 0; blocks &= blocks - 1) {
-    const int block = __builtin_ctzll(blocks);
-    c.dx = s.anchor_x[lane] + block % 8 * kBlockSize;
-    c.dy = s.anchor_y[lane] + block / 8 * kBlockSize;
-    UpdateDepthMax(t, lane, block, true);
-  }
-}
-
 // Blocks of the triangle that are covered all over, where `collects`; what else it covers is drawn.
 uint64_t WalkBlocks(TileContext& t, const TriangleWalk& walk, int lane, bool packs, bool collects) {
   const SetupBatch& s = t.setup;
@@ -284,12 +234,15 @@ HWY_NOINLINE void NoteFilled(TileContext& t, int lane, uint64_t blocks) {
   }
 }
 
+#include "raster/tile/whole_blocks.inl"
+
 void WalkTriangle(TileContext& t, int lane, bool packs) {
   if (TileHides(t, lane)) return;
   const TriangleWalk walk(t.setup, lane);
   t.even = HasEvenColor(t, lane);
   const BlockProgram& stages = t.even ? t.program->even : t.program->variants[t.setup.variant[lane]];
-  const bool collects = stages.tile != nullptr && (stages.fills || t.notes == nullptr);
+  const bool collects =
+      stages.whole.fills || (t.notes == nullptr && (stages.whole.tile != nullptr || stages.nearer.tile != nullptr));
   const bool whole = !t.masks_blocks && walk.CoversTile();
   uint64_t covered = 0;
   if (whole && collects) {
@@ -302,8 +255,7 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
   }
   if (covered != 0) {
     if ((t.packer.blocks & covered) != 0) FlushPacked(t);
-    if (stages.fills) FillBlocks(t, covered, EvenPixel(t, lane, stages));
-    else RunWholeBlocks(t, lane, covered, stages);
+    RunWholeBlocks(t, lane, covered, stages);
     if (HWY_UNLIKELY(t.notes != nullptr)) NoteFilled(t, lane, covered);
   }
   t.even = false;

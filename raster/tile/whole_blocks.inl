@@ -1,0 +1,66 @@
+// Blocks that a triangle covers all over, many in one call. Compiled once per ISA level.
+
+// A block in a call of its own costs less than what a whole tile's planes do, where there are but a few.
+constexpr int kFewBlocks = 4;
+
+// The depth of blocks that were drawn just now is the triangle's. The tile keeps one such plane; what another's blocks hold is written.
+void TakeDepth(TileContext& t, int lane, uint64_t blocks) {
+  const SetupBatch& s = t.setup;
+  TileState& state = *t.state;
+  state.depth_is_clear &= ~blocks;
+  state.depth_on_plane &= ~blocks;
+  if (state.depth_on_plane == 0) {
+    state.depth_plane = {s.f0[0][lane], s.dfdx[0][lane], s.dfdy[0][lane], s.anchor_x[lane], s.anchor_y[lane]};
+    state.depth_on_plane = blocks;
+    return;
+  }
+  t.block.blocks = blocks;
+  t.block.depth = t.framebuffer->depth_tile(t.tile);
+  t.program->stores_depth(t.block);
+}
+
+// The kernel that takes many, on blocks whose depth is settled, or not asked for.
+void RunTileKernel(TileContext& t, int lane, uint64_t blocks, const TileCode& code) {
+  const SetupBatch& s = t.setup;
+  BlockContext& c = t.block;
+  const int plane = t.program->plane;
+  c.dx = s.anchor_x[lane];
+  c.dy = s.anchor_y[lane];
+  c.lane = lane;
+  CountFragments(t, lane, blocks);
+  if (code.fills) return FillBlocks(t, blocks, EvenPixel(t, lane, code.block));
+  ColorMarks& marks = t.state->color[plane];
+  if (code.overwrites) marks.is_clear &= ~blocks;
+  else if ((marks.is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks, plane);
+  c.color = t.framebuffer->color_tile<uint32_t>(t.tile, plane);
+  if (t.program->reads_depth) c.depth = t.framebuffer->depth_tile(t.tile);
+  c.blocks = blocks;
+  code.tile(c);
+}
+
+void RunWholeBlocks(TileContext& t, int lane, uint64_t blocks, const BlockProgram& stages) {
+  const SetupBatch& s = t.setup;
+  const PipelineProgram& program = *t.program;
+  if (!stages.whole.fills && __builtin_popcountll(blocks) < kFewBlocks) {
+    for (; blocks != 0; blocks &= blocks - 1) RunBlock(t, lane, __builtin_ctzll(blocks), ~uint64_t{0});
+    return;
+  }
+  if (!program.reads_depth) return RunTileKernel(t, lane, blocks, stages.whole);
+  const BlockDepths depths(s, lane, blocks);
+  const CoarseDepth coarse = depths.Compare(*t.state, program.depth.func == CompareFunc::less_equal);
+  blocks &= ~coarse.hidden;
+  const uint64_t nearer = blocks & coarse.nearer, tested = blocks & ~nearer;
+  if (tested != 0 && stages.whole.tile != nullptr) {
+    if ((t.state->depth_marks() & tested) != 0) t.framebuffer->settle_depth(t.tile, tested);
+    RunTileKernel(t, lane, tested, stages.whole);
+  } else {
+    for (uint64_t todo = tested; todo != 0; todo &= todo - 1) RunBlock(t, lane, __builtin_ctzll(todo), ~uint64_t{0});
+  }
+  if (nearer != 0) {
+    RunTileKernel(t, lane, nearer, stages.nearer);
+    if (program.writes_depth) TakeDepth(t, lane, nearer);
+  }
+  if (!program.writes_depth) return;
+  depths.Update(tested, nearer, *t.state);
+  t.knows_deepest = false;
+}
