@@ -1,71 +1,163 @@
 // Lines of one pixel's width: which pixels they make fragments at, a vector of columns at a time, exactly as
 // raster/tile/cover_line.cpp has it pixel by pixel. Compiled once per ISA level.
 
-// A line on a tile, in 1/256 px from the tile's corner. u is along its longer axis, v along the other. The
-// diamond-exit rule (spec 3.4.1) as bounds on sums and differences of coordinates: the diamond |x - cx| + |y
-// - cy| < 1/2 is a square on the axes x + y and x - y, where the moved ends make one side of each bound
-// belong to it.
-struct LineWalk {
-  static constexpr int kHalf = kSubpixelScale / 2;
-  int32_t x0, y0, sum, difference;  // dx + dy, dx - dy
-  bool steep;
-  int first, last;      // columns of pixels
-  double start, step;   // v at the middle of column `first`, and from column to column, times pitch
-  double pitch;         // a pixel
-  double between_down;  // 1: where the line runs exactly between two pixels, the one below has the fragment
+using LineInts = hn::Vec<DDi>;
 
-  HWY_INLINE LineWalk(const LineEnds& e, int tile_x, int tile_y, const Rect& limit) {
-    x0 = e.x0 - tile_x * kSubpixelScale, y0 = e.y0 - tile_y * kSubpixelScale;
-    const int32_t dx = e.x1 - e.x0, dy = e.y1 - e.y0;
-    const int32_t width = dx < 0 ? -dx : dx, height = dy < 0 ? -dy : dy;
-    sum = dx + dy, difference = dx - dy;
-    steep = height > width;
-    const int32_t u0 = steep ? y0 : x0, v0 = steep ? x0 : y0, du = steep ? dy : dx, dv = steep ? dx : dy;
-    const int32_t length = steep ? height : width, rise = du < 0 ? -dv : dv;
-    const int32_t low = du < 0 ? u0 + du : u0, high = du < 0 ? u0 : u0 + du;
-    const int from = steep ? limit.y0 : limit.x0, to = (steep ? limit.y1 : limit.x1) - 1;
-    first = ColumnBelow(low), last = ColumnBelow(high);
-    first = first > from ? first : from;
-    last = last < to ? last : to;
-    const int64_t along = int64_t{first} * kSubpixelScale + kHalf - u0;
-    start = static_cast<double>(int64_t{v0} * length + rise * along);
-    step = static_cast<double>(int64_t{rise} * kSubpixelScale);
-    pitch = static_cast<double>(int64_t{length} * kSubpixelScale);
-    // Both diamonds touch the line with a corner; the moved line passes through one of them.
-    between_down = steep || (dx > 0 ? dy <= 0 : dy >= 0) ? 1 : 0;
+// A batch's lines as SetUp has them, but for what only triangles need: no order to be found, no edges, no
+// box. The third corner, at right angles (FindCorners), is made in registers.
+struct LineSetup {
+  alignas(64) int32_t x[2][kSetupLanes], y[2][kSetupLanes];  // the ends in the order they were given
+
+  HWY_INLINE void Copy(const VertexHead* from, const VertexHead* to, const QuadPlan& quads, int lane,
+                       SetupInput& in) {
+    x[0][lane] = from->x, y[0][lane] = from->y;
+    x[1][lane] = to->x, y[1][lane] = to->y;
+    // The lower end first, as Below() has it; chosen without a branch, which would be wrong every other time.
+    const int64_t swap = Place(*to) < Place(*from) ? 1 : 0;
+    const ptrdiff_t apart =
+        (reinterpret_cast<const std::byte*>(to) - reinterpret_cast<const std::byte*>(from)) * swap;
+    const auto* low = reinterpret_cast<const VertexHead*>(reinterpret_cast<const std::byte*>(from) + apart);
+    const auto* high = reinterpret_cast<const VertexHead*>(reinterpret_cast<const std::byte*>(to) - apart);
+    memcpy(&in.head[0][lane], low, sizeof *low);
+    memcpy(&in.head[1][lane], high, sizeof *high);
+    CopyQuads(low, quads, 0, lane, in);
+    CopyQuads(high, quads, 1, lane, in);
   }
 
-  // The rows of columns [column, column + kQueueLanes). Every number is an integer below 2^53. A quotient
-  // that is none is further from the next integer than it is rounded by: rows are below 2^18, pitch below
-  // 2^33.
-  HWY_INLINE hn::Vec<DIq> Rows(int column) const {
+  static HWY_INLINE void Spread(const QuadPlan& quads, int attributes, int i, SetupInput& in) {
     const DD d;
+    const DDi di;
+    const DDf df;
+    LineInts x[3], y[3];
+    hn::Vec<DDf> rest_x[3], rest_y[3];
+    for (int k = 0; k < 2; ++k) {
+      VD place, z, inv_w, rest;
+      hn::LoadInterleaved4(d, reinterpret_cast<const double*>(in.head[k] + i), place, z, inv_w, rest);
+      x[k] = LowHalf(di, place), y[k] = HighHalf(di, place);
+      rest_x[k] = LowHalf(df, rest), rest_y[k] = HighHalf(df, rest);
+      hn::Store(z, d, in.z[k] + i);
+      hn::Store(inv_w, d, in.inv_w[k] + i);
+      if (k == 0) hn::Store(z, d, in.z[2] + i);
+      if (k == 0) hn::Store(inv_w, d, in.inv_w[2] + i);
+    }
+    x[2] = hn::Sub(x[0], hn::Sub(y[1], y[0])), y[2] = hn::Add(y[0], hn::Sub(x[1], x[0]));
+    rest_x[2] = hn::Sub(rest_x[0], hn::Sub(rest_y[1], rest_y[0]));
+    rest_y[2] = hn::Add(rest_y[0], hn::Sub(rest_x[1], rest_x[0]));
+    for (int k = 0; k < 3; ++k) {
+      hn::Store(x[k], di, in.x[k] + i);
+      hn::Store(y[k], di, in.y[k] + i);
+      hn::Store(hn::PromoteTo(d, rest_x[k]), d, in.rest_x[k] + i);
+      hn::Store(hn::PromoteTo(d, rest_y[k]), d, in.rest_y[k] + i);
+    }
+    for (int q = 0; q < quads.count; ++q) {
+      hn::Vec<DDf> v[2][4];
+      for (int k = 0; k < 2; ++k)
+        hn::LoadInterleaved4(df, in.quad[k][q][i], v[k][0], v[k][1], v[k][2], v[k][3]);
+      for (int f = 0; f < 4; ++f) {
+        const int a = quads.Start(q) + f;
+        if (a < 4 * q || a >= attributes) continue;
+        const VD first = hn::PromoteTo(d, v[0][f]);
+        hn::Store(first, d, in.attribute[a][0] + i);
+        hn::Store(hn::PromoteTo(d, v[1][f]), d, in.attribute[a][1] + i);
+        hn::Store(first, d, in.attribute[a][2] + i);
+      }
+    }
+  }
+
+ private:
+  static HWY_INLINE int64_t Place(const VertexHead& v) { return (int64_t{v.y} << 32) + v.x; }
+};
+
+// A batch's lines on a tile, in 1/256 px from the tile's corner. u is along the longer axis, v along the
+// other. The diamond-exit rule (spec 3.4.1) as bounds on sums and differences of coordinates: the diamond |x
+// - cx| + |y - cy| < 1/2 is a square on the axes x + y and x - y, where the moved ends make one side of each
+// bound belong to it.
+struct LineWalk {
+  static constexpr int kHalf = kSubpixelScale / 2;
+  alignas(64) int32_t x0[kSetupLanes], y0[kSetupLanes];
+  alignas(64) int32_t sum[kSetupLanes], difference[kSetupLanes];  // dx + dy, dx - dy
+  alignas(64) int32_t steep[kSetupLanes];                         // -1 or 0
+  alignas(64) int32_t first[kSetupLanes], last[kSetupLanes];      // columns of pixels
+  // v at the middle of column `first`, and from column to column, times pitch; a pixel is a pitch.
+  alignas(64) double start[kSetupLanes], step[kSetupLanes], pitch[kSetupLanes];
+  // 1: where the line runs exactly between two pixels, the one below has the fragment. Both diamonds touch
+  // the line with a corner, and the moved line passes through one of them.
+  alignas(64) double between_down[kSetupLanes];
+
+  HWY_INLINE void Find(const LineSetup& lines, int i, int tile_x, int tile_y, const Rect& limit) {
+    const DD d;
+    const DDi di;
+    const LineInts zero = hn::Zero(di);
+    const LineInts ax = hn::Sub(hn::Load(di, lines.x[0] + i), hn::Set(di, tile_x * kSubpixelScale));
+    const LineInts ay = hn::Sub(hn::Load(di, lines.y[0] + i), hn::Set(di, tile_y * kSubpixelScale));
+    const LineInts dx = hn::Sub(hn::Load(di, lines.x[1] + i), hn::Load(di, lines.x[0] + i));
+    const LineInts dy = hn::Sub(hn::Load(di, lines.y[1] + i), hn::Load(di, lines.y[0] + i));
+    const LineInts width = hn::Max(dx, hn::Neg(dx)), height = hn::Max(dy, hn::Neg(dy));
+    const auto is_steep = hn::Gt(height, width);
+    const LineInts u0 = hn::IfThenElse(is_steep, ay, ax), v0 = hn::IfThenElse(is_steep, ax, ay);
+    const LineInts du = hn::IfThenElse(is_steep, dy, dx), dv = hn::IfThenElse(is_steep, dx, dy);
+    const LineInts length = hn::Max(width, height);
+    const LineInts rise = hn::IfThenElse(hn::Lt(du, zero), hn::Neg(dv), dv);
+    const LineInts from = hn::IfThenElse(is_steep, hn::Set(di, limit.y0), hn::Set(di, limit.x0));
+    const LineInts to = hn::IfThenElse(is_steep, hn::Set(di, limit.y1 - 1), hn::Set(di, limit.x1 - 1));
+    const LineInts begin = hn::Max(ColumnBelow(hn::Min(u0, hn::Add(u0, du))), from);
+    const LineInts along = hn::Sub(hn::Add(hn::ShiftLeft<kSubpixelBits>(begin), hn::Set(di, kHalf)), u0);
+    hn::Store(ax, di, x0 + i);
+    hn::Store(ay, di, y0 + i);
+    hn::Store(hn::Add(dx, dy), di, sum + i);
+    hn::Store(hn::Sub(dx, dy), di, difference + i);
+    hn::Store(hn::VecFromMask(di, is_steep), di, steep + i);
+    hn::Store(begin, di, first + i);
+    hn::Store(hn::Min(ColumnBelow(hn::Max(u0, hn::Add(u0, du))), to), di, last + i);
+    // Integers below 2^50.
+    const VD long_side = hn::PromoteTo(d, length), climb = hn::PromoteTo(d, rise);
+    const VD pixel = hn::Set(d, static_cast<double>(kSubpixelScale));
+    hn::Store(hn::Add(hn::Mul(hn::PromoteTo(d, v0), long_side), hn::Mul(climb, hn::PromoteTo(d, along))), d,
+              start + i);
+    hn::Store(hn::Mul(climb, pixel), d, step + i);
+    hn::Store(hn::Mul(long_side, pixel), d, pitch + i);
+    // Steep, or level, or falling to the right.
+    const LineInts falls =
+        hn::Or(hn::VecFromMask(di, is_steep),
+               hn::Or(hn::VecFromMask(di, hn::Eq(dy, zero)), hn::BroadcastSignBit(hn::Xor(dx, dy))));
+    hn::Store(hn::Neg(hn::PromoteTo(d, falls)), d, between_down + i);
+  }
+
+  // The rows of columns [column, column + kQueueLanes). A quotient that is no integer is further from the
+  // next than it is rounded by: rows are below 2^18, pitch below 2^33.
+  HWY_INLINE hn::Vec<DIq> Rows(int lane, int column) const {
+    const DD d;
+    const VD height = hn::Set(d, pitch[lane]);
     QueuedDoubles rows;
     for (int p = 0; p < kQueueParts; ++p) {
       const VD index =
-          hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(column - first + p * kDoubleLanes)));
-      const VD place = hn::Add(hn::Set(d, start), hn::Mul(hn::Set(d, step), index));
-      const VD row = hn::Floor(hn::Div(place, hn::Set(d, pitch)));
-      const auto between = hn::Eq(hn::Mul(row, hn::Set(d, pitch)), place);
-      rows.part[p] = hn::Sub(row, hn::IfThenElseZero(between, hn::Set(d, between_down)));
+          hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(column - first[lane] + p * kDoubleLanes)));
+      const VD place = hn::Add(hn::Set(d, start[lane]), hn::Mul(hn::Set(d, step[lane]), index));
+      const VD row = hn::Floor(hn::Div(place, height));
+      const auto between = hn::Eq(hn::Mul(row, height), place);
+      rows.part[p] = hn::Sub(row, hn::IfThenElseZero(between, hn::Set(d, between_down[lane])));
     }
     return DemoteQueued(DIq(), rows);
   }
 
   // Whether the segment reaches into the pixels' diamonds, and leaves them.
-  HWY_INLINE hn::Mask<DIq> MakesFragments(hn::Vec<DIq> x, hn::Vec<DIq> y) const {
+  HWY_INLINE hn::Mask<DIq> MakesFragments(int lane, hn::Vec<DIq> x, hn::Vec<DIq> y) const {
     const DIq d;
-    const auto to_x = hn::Sub(hn::Set(d, x0 - kHalf), hn::ShiftLeft<kSubpixelBits>(x));
-    const auto to_y = hn::Sub(hn::Set(d, y0 - kHalf), hn::ShiftLeft<kSubpixelBits>(y));
+    const auto to_x = hn::Sub(hn::Set(d, x0[lane] - kHalf), hn::ShiftLeft<kSubpixelBits>(x));
+    const auto to_y = hn::Sub(hn::Set(d, y0[lane] - kHalf), hn::ShiftLeft<kSubpixelBits>(y));
     const auto a = hn::Add(to_x, to_y), b = hn::Sub(to_x, to_y);
-    const auto reaches = hn::And(Within(a, sum < 0 ? sum : 0, sum > 0 ? sum : 0),
-                                 Within(b, difference < 0 ? difference : 0, difference > 0 ? difference : 0));
-    const auto ends = hn::And(Within(a, sum, sum), Within(b, difference, difference));
+    const int32_t s = sum[lane], t = difference[lane];
+    const auto reaches =
+        hn::And(Within(a, s < 0 ? s : 0, s > 0 ? s : 0), Within(b, t < 0 ? t : 0, t > 0 ? t : 0));
+    const auto ends = hn::And(Within(a, s, s), Within(b, t, t));
     return hn::AndNot(ends, reaches);
   }
 
  private:
-  static HWY_INLINE int ColumnBelow(int32_t u) { return ((u + kSubpixelScale - 1) >> kSubpixelBits) - 1; }
+  static HWY_INLINE LineInts ColumnBelow(LineInts u) {
+    const DDi d;
+    return hn::Sub(hn::ShiftRight<kSubpixelBits>(hn::Add(u, hn::Set(d, kSubpixelScale - 1))), hn::Set(d, 1));
+  }
   static HWY_INLINE hn::Mask<DIq> Within(hn::Vec<DIq> v, int32_t least, int32_t most) {
     const DIq d;
     return hn::And(hn::Gt(v, hn::Set(d, -kHalf - most)), hn::Lt(v, hn::Set(d, kHalf + 1 - least)));
@@ -87,18 +179,25 @@ struct LinePieces {
   int count = 0;
 
   // `limit`: the pixels that may be drawn, relative to the tile.
-  HWY_INLINE void Add(const LineEnds& ends, int lane, int tile_x, int tile_y, const Rect& limit) {
+  HWY_INLINE void Find(const LineSetup& lines, int line_count, int tile_x, int tile_y, const Rect& limit) {
+    LineWalk walk;
+    for (int i = 0; i < line_count; i += kDoubleLanes) walk.Find(lines, i, tile_x, tile_y, limit);
+    for (int lane = 0; lane < line_count; ++lane) Add(walk, lane, limit);
+  }
+
+ private:
+  HWY_INLINE void Add(const LineWalk& walk, int lane, const Rect& limit) {
     const DIq d;
-    const LineWalk walk(ends, tile_x, tile_y, limit);
-    const auto steep = hn::MaskFromVec(hn::Set(d, walk.steep ? -1 : 0));
-    const auto low = hn::Set(d, walk.steep ? limit.x0 : limit.y0);
-    const auto high = hn::Set(d, walk.steep ? limit.x1 : limit.y1);
-    for (int column = walk.first; column <= walk.last; column += kQueueLanes) {
-      const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, column)), v = walk.Rows(column);
+    const bool is_steep = walk.steep[lane] != 0;
+    const auto steep = hn::MaskFromVec(hn::Set(d, walk.steep[lane]));
+    const auto low = hn::Set(d, is_steep ? limit.x0 : limit.y0),
+               high = hn::Set(d, is_steep ? limit.x1 : limit.y1);
+    const auto end = hn::Set(d, walk.last[lane] + 1);
+    for (int column = walk.first[lane]; column <= walk.last[lane]; column += kQueueLanes) {
+      const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, column)), v = walk.Rows(lane, column);
       const auto x = hn::IfThenElse(steep, v, u), y = hn::IfThenElse(steep, u, v);
-      const auto inside =
-          hn::And(hn::Lt(u, hn::Set(d, walk.last + 1)), hn::AndNot(hn::Lt(v, low), hn::Lt(v, high)));
-      const auto live = hn::And(inside, walk.MakesFragments(x, y));
+      const auto inside = hn::And(hn::Lt(u, end), hn::AndNot(hn::Lt(v, low), hn::Lt(v, high)));
+      const auto live = hn::And(inside, walk.MakesFragments(lane, x, y));
       LinePiece& to = piece[count];
       const Squeeze squeeze(live);
       hn::Store(squeeze(x), d, to.x);
@@ -121,41 +220,75 @@ void PackPiece(TileContext& t, const LinePiece& piece) {
   const auto x = hn::IfThenElse(taken, hn::Load(d, piece.x), hn::Set(d, piece.x[0]));
   const auto y = hn::IfThenElse(taken, hn::Load(d, piece.y), hn::Set(d, piece.y[0]));
   const int before = t.packer.queue.count;
-  const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
-  for (int i = 0; i < piece.count; i += 2)
-    __builtin_prefetch(color + Packer::TileOffset(piece.x[i], piece.y[i]), 1);
   t.packer.AppendGroup(s, piece.lane, x, y, piece.count, *t.program, t.plane_count, depth);
+  // Every other pixel is in the cache line of its neighbour. Behind the last stands the first again.
+  const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
+  if (depth == nullptr)
+    for (int i = 0; i < kQueueLanes; i += 2) __builtin_prefetch(color + t.packer.queue.offset[before + i], 1);
   if (t.flat_color) t.packer.SetFlatColor(s, piece.lane, t.program->params.color_plane, before);
 }
 
-HWY_INLINE bool PacksLine(const TileContext& t, const PrimitiveRef& ref, int lane) {
-  return ref.kind == PrimitiveKind::line && !ref.cut && Packs(t, lane);
-}
-
-// How many of the batch's primitives, from the first on, are lines that it drew.
-int PackLines(TileContext& t, const Segment& segment, const DrawRecord& draw, const uint32_t* ids,
-              int count) {
+// Whether the batch is of lines that go one after the other through the queue of waiting fragments.
+HWY_INLINE bool ArePlainLines(const TileContext& t, const Segment& segment, const DrawRecord& draw,
+                              const uint32_t* ids, int count) {
   const PrimitiveRef* refs = segment.primitives.data();
-  if (!draw.shape.plain_lines() || !PacksLine(t, refs[ids[0]], 0)) return 0;
-  const size_t stride = draw.vertices.layout.stride();
-  LinePieces pieces;
-  int lane = 0;
-  for (; lane < count && PacksLine(t, refs[ids[lane]], lane); ++lane) {
-    const VertexHead *a = Head(draw.vertices, stride, refs[ids[lane]].v[0]),
-                     *b = Head(draw.vertices, stride, refs[ids[lane]].v[1]);
-    pieces.Add({a->x, a->y, b->x, b->y}, lane, t.x, t.y, t.limit);
-  }
-  for (int i = 0; i < pieces.count; ++i) PackPiece(t, pieces.piece[i]);
-  return lane;
+  if (refs[ids[0]].kind != PrimitiveKind::line) return false;
+  const VertexLayout& layout = draw.vertices.layout;
+  if (!draw.shape.plain_lines() || !t.program->packs || t.notes != nullptr || layout.back_color >= 0 ||
+      layout.low >= 0)
+    return false;
+  for (int lane = 0; lane < count; ++lane)
+    if (refs[ids[lane]].kind != PrimitiveKind::line || refs[ids[lane]].cut) return false;
+  return true;
 }
 
-// What PackLines finds, for the tests.
+// Draws the batch, up to the first line whose planes have to be double; returns where it stopped.
+int RunPlainLines(TileContext& t, const Segment& segment, const DrawRecord& draw, const uint32_t* ids,
+                  int count) {
+  const DD d;
+  const VertexLayout& layout = draw.vertices.layout;
+  const FragmentParams& params = t.program->params;
+  const QuadPlan quads(layout.attribute_count);
+  LineSetup lines;
+  for (int lane = 0; lane < count; ++lane) {
+    const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
+    lines.Copy(Head(draw.vertices, layout.stride(), ref.v[0]), Head(draw.vertices, layout.stride(), ref.v[1]),
+               quads, lane, t.input);
+  }
+  for (int lane = count; lane < kSetupLanes; ++lane)  // for what computes with whole vectors
+    for (int k = 0; k < 2; ++k) lines.x[k][lane] = lines.x[k][0], lines.y[k][lane] = lines.y[k][0];
+  const int32_t center_x = t.x * kSubpixelScale + kSubpixelScale / 2;
+  const int32_t center_y = t.y * kSubpixelScale + kSubpixelScale / 2;
+  const VD cx = hn::Set(d, static_cast<double>(center_x)), cy = hn::Set(d, static_cast<double>(center_y));
+  for (int i = 0; i < count; i += kDoubleLanes) {
+    LineSetup::Spread(quads, layout.attribute_count, i, t.input);
+    CornerVectors v;
+    for (int k = 0; k < 3; ++k) v.x[k] = LoadInt(t.input.x[k] + i), v.y[k] = LoadInt(t.input.y[k] + i);
+    SetAnchor(v, i, cx, cy, t.setup);
+    SetPlanes(t.input, layout, params, v, i, t.setup);
+  }
+  if (t.flat_color || params.one_lambda)
+    FinishLanes(segment, draw, ids, count, center_x, center_y, t.input, t.setup);
+  int packed = 0;
+  while (packed < count && Packs(t, packed)) ++packed;
+  LinePieces pieces;
+  pieces.Find(lines, packed, t.x, t.y, t.limit);
+  for (int i = 0; i < pieces.count; ++i) PackPiece(t, pieces.piece[i]);
+  return packed;
+}
+
+// Which pixels those are, for the tests.
 void ListLine(const LineEnds& ends, int tile_x, int tile_y, const Rect& bounds, PixelList& out) {
   out.count = 0;
   const Rect cut = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
   if (cut.empty()) return;
+  LineSetup lines;
+  for (int lane = 0; lane < kSetupLanes; ++lane) {
+    lines.x[0][lane] = ends.x0, lines.y[0][lane] = ends.y0;
+    lines.x[1][lane] = ends.x1, lines.y[1][lane] = ends.y1;
+  }
   LinePieces pieces;
-  pieces.Add(ends, 0, tile_x, tile_y, {cut.x0 - tile_x, cut.y0 - tile_y, cut.x1 - tile_x, cut.y1 - tile_y});
+  pieces.Find(lines, 1, tile_x, tile_y, {cut.x0 - tile_x, cut.y0 - tile_y, cut.x1 - tile_x, cut.y1 - tile_y});
   for (int i = 0; i < pieces.count; ++i) {
     for (int j = 0; j < pieces.piece[i].count; ++j, ++out.count) {
       out.x[out.count] = static_cast<uint8_t>(pieces.piece[i].x[j]);

@@ -401,6 +401,30 @@ HWY_NOINLINE void AddLowParts(const Segment& segment, const ShadedVertices& vert
   }
 }
 
+// What is made from one primitive after the other, where a draw asks for it.
+HWY_NOINLINE void FinishLanes(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, int count,
+                              int32_t center_x, int32_t center_y, const SetupInput& in, SetupBatch& out) {
+  const VertexLayout& layout = draw.vertices.layout;
+  const FragmentParams& params = draw.program->params;
+  const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
+  for (int lane = 0; lane < count; ++lane) {
+    const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
+    if (ref.cut)
+      CopyPlanes(segment, segment.cut_triangles.data()[ref.v[0]], layout, lane, center_x, center_y, out);
+    if (flat) SetFlatColor(segment, draw, ref, lane, out);
+    if (params.one_lambda) out.lambda[lane] = LambdaOf(in, params, layout, lane, center_x, center_y, out);
+    if (draw.shape.offset_fill && ref.kind <= PrimitiveKind::smooth_triangle)
+      OffsetDepth(draw.state->polygon, lane, out);
+  }
+}
+
+HWY_INLINE void SetAnchor(const CornerVectors& v, int i, VD center_x, VD center_y, SetupBatch& out) {
+  const DD d;
+  const VD pixel = hn::Set(d, 1.0 / kSubpixelScale);
+  hn::Store(hn::Mul(hn::Sub(center_x, v.x[0]), pixel), d, out.anchor_x + i);
+  hn::Store(hn::Mul(hn::Sub(center_y, v.y[0]), pixel), d, out.anchor_y + i);
+}
+
 // Fills `out` for the primitives ids[0 .. count) of `segment`, all of one draw. `limit`: the draw's bounds
 // relative to the tile whose lowest pixel is (tile_x, tile_y).
 void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, int count, int tile_x,
@@ -429,21 +453,10 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
       v.y[k] = LoadInt(in.y[k] + i);
     }
     for (int k = 0; k < 3; ++k) SetEdge(v, k, (k + 1) % 3, k, i, cx, cy, out);
-    const VD pixel = hn::Set(d, 1.0 / kSubpixelScale);
-    hn::Store(hn::Mul(hn::Sub(cx, v.x[0]), pixel), d, out.anchor_x + i);
-    hn::Store(hn::Mul(hn::Sub(cy, v.y[0]), pixel), d, out.anchor_y + i);
+    SetAnchor(v, i, cx, cy, out);
     SetPlanes(in, layout, params, v, i, out);
   }
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
-  const bool offset = draw.shape.offset_fill;
-  const bool one_lambda = params.one_lambda;
-  if (!any_cut && !flat && !offset && !one_lambda) return;
-  for (int lane = 0; lane < count; ++lane) {
-    const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    if (ref.cut)
-      CopyPlanes(segment, segment.cut_triangles.data()[ref.v[0]], layout, lane, center_x, center_y, out);
-    if (flat) SetFlatColor(segment, draw, ref, lane, out);
-    if (one_lambda) out.lambda[lane] = LambdaOf(in, params, layout, lane, center_x, center_y, out);
-    if (offset && ref.kind <= PrimitiveKind::smooth_triangle) OffsetDepth(draw.state->polygon, lane, out);
-  }
+  if (any_cut || flat || draw.shape.offset_fill || params.one_lambda)
+    FinishLanes(segment, draw, ids, count, center_x, center_y, in, out);
 }

@@ -338,11 +338,13 @@ void RunSegment(TileContext& t, const Segment& segment) {
         ++count;
       if (!t.input_is_clear) t.input.Clear();  // lanes beyond a batch's count are computed with, though never used
       t.input_is_clear = true;
-      SetUp(segment, record, ids + at, count, t.x, t.y, t.limit, t.input, t.setup);
+      const bool lines = ArePlainLines(t, segment, record, ids + at, count);
+      const int drawn = lines ? RunPlainLines(t, segment, record, ids + at, count) : 0;
+      if (!lines) SetUp(segment, record, ids + at, count, t.x, t.y, t.limit, t.input, t.setup);
       const size_t next = at + static_cast<size_t>(count);
       PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + next,
                       total - next < kSetupLanes ? total - next : kSetupLanes);
-      for (int lane = PackLines(t, segment, record, ids + at, count); lane < count; ++lane) {
+      for (int lane = drawn; lane < count; ++lane) {
         const PrimitiveRef& ref = segment.primitives.data()[ids[at + static_cast<size_t>(lane)]];
         if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
         else RunShape(t, ref, segment, record, lane);
