@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "raster/surface/rows.h"
+
 namespace halfspace::raster {
 namespace {
 
@@ -46,24 +48,19 @@ void copy_blocks_rgba8(const Framebuffer::Impl& fb, int plane, int x0, int x1, i
   });
 }
 
-// Eight rows of a tile, block by block: where each block's rows begin and how far apart they are. A block that is only
-// marked as cleared has one row for all.
-struct TileBand {
-  const uint32_t* block[8];
-  int step[8];
+// `band`: 0 to 7, from the tile's lowest.
+uint64_t band_of(uint64_t marks, int band) { return marks >> (band * 8) & 0xff; }
 
-  TileBand(const Framebuffer::Impl& fb, size_t tile, int plane, int band, const uint32_t* clear_row) {
-    for (int b = 0; b < 8; ++b) {
-      const bool marked = is_marked(fb.tiles[tile].color[plane].is_clear, band * 8 + b);
-      block[b] = marked ? clear_row : fb.color_tile<uint32_t>(tile, plane) + (band * 8 + b) * kBlockPixels;
-      step[b] = marked ? 0 : kBlockSize;
-    }
+TileBand tile_band(const Framebuffer::Impl& fb, size_t tile, int plane, int band, const uint32_t* clear_row) {
+  TileBand rows;
+  const uint64_t marks = band_of(fb.tiles[tile].color[plane].is_clear, band);
+  for (int b = 0; b < 8; ++b) {
+    const bool marked = is_marked(marks, b);
+    rows.block[b] = marked ? clear_row : fb.color_tile<uint32_t>(tile, plane) + (band * 8 + b) * kBlockPixels;
+    rows.step[b] = marked ? 0 : kBlockSize;
   }
-  void copy_row(int row, uint32_t* out) const {
-    for (int b = 0; b < 8; ++b)
-      std::memcpy(out + b * kBlockSize, block[b] + row * step[b], kBlockSize * sizeof(uint32_t));
-  }
-};
+  return rows;
+}
 
 void copy_blocks_float(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, float* out) {
   for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
@@ -151,33 +148,6 @@ bool takes_rgba8(const LinearImage& image) {
          (reinterpret_cast<uintptr_t>(image.data) | static_cast<uintptr_t>(image.row_bytes)) % sizeof(uint32_t) == 0;
 }
 
-// The usual case: a whole tile of bytes.
-bool resolve_whole_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, const Rect& rect,
-                        const Placed& placed) {
-  const LinearImage& image = placed.image;
-  if (fb.format != ColorFormat::rgba8 || image.float_components || rect.x1 - rect.x0 != kTileSize ||
-      rect.y1 - rect.y0 != kTileSize)
-    return false;
-  const bool direct = takes_rgba8(image);
-  const uint32_t alpha = image.opaque ? 0xff000000u : 0u;
-  uint32_t clear_row[kBlockSize], pixels[kTileSize];
-  std::fill_n(clear_row, kBlockSize, fb.tiles[tile].color[plane].rgba8);
-  for (int band = 0; band < 8; ++band) {
-    const TileBand rows(fb, tile, plane, band, clear_row);
-    for (int row = 0; row < kBlockSize; ++row) {
-      std::byte* out = placed.at(rect.x0, rect.y0 + band * kBlockSize + row);
-      if (direct) {
-        rows.copy_row(row, reinterpret_cast<uint32_t*>(out));
-        continue;
-      }
-      rows.copy_row(row, pixels);
-      for (uint32_t& pixel : pixels) pixel |= alpha;
-      store_row_bytes(pixels, kTileSize, image.layout, out);
-    }
-  }
-  return true;
-}
-
 void resolve_row(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, const Placed& placed) {
   const LinearImage& image = placed.image;
   std::byte* out = placed.at(x0, y);
@@ -200,6 +170,69 @@ void resolve_row(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, 
     for (int i = 0; i < count; ++i) rgba[i] |= 0xff000000u;
   store_row_bytes(rgba, count, image.layout, out);
 }
+
+// Eight rows of some neighbouring tiles, onto an image of bytes. All of them at once, since memory likes its rows whole.
+struct BandWriter {
+  const Framebuffer::Impl& fb;
+  int plane;
+  const Placed& placed;
+  const Rect& rect;  // of the tiles, what the image has
+  RowFunctions rows;
+  bool direct;
+
+  BandWriter(const Framebuffer::Impl& framebuffer, int plane_of, const Placed& image, const Rect& part)
+      : fb(framebuffer), plane(plane_of), placed(image), rect(part), rows(row_functions()),
+        direct(takes_rgba8(image.image)) {}
+
+  PixelRows at(int x, int y) const {
+    const ptrdiff_t step = placed.image.row_bytes / static_cast<ptrdiff_t>(sizeof(uint32_t));
+    return {reinterpret_cast<uint32_t*>(placed.at(x, y)), placed.image.y_up ? step : -step};
+  }
+
+  // How far from x on, where a tile begins, there is one cleared colour only.
+  int end_of_clear(size_t tile, int band, int x) const {
+    const uint32_t value = fb.tiles[tile].color[plane].rgba8;
+    for (; x < rect.x1; x += kTileSize, ++tile) {
+      const ColorMarks& marks = fb.tiles[tile].color[plane];
+      if (marks.rgba8 != value || band_of(marks.is_clear, band) != 0xff) break;
+    }
+    return std::min(x, rect.x1);
+  }
+
+  void convert_tile(const TileBand& band, int x, int y) const {
+    alignas(64) uint32_t pixels[kBlockSize * kTileSize];
+    rows.copy_band(band, {pixels, kTileSize});
+    if (placed.image.opaque)
+      for (uint32_t& pixel : pixels) pixel |= 0xff000000u;
+    for (int row = 0; row < kBlockSize; ++row)
+      store_row_bytes(pixels + row * kTileSize, kTileSize, placed.image.layout, placed.at(x, y + row));
+  }
+
+  void write(int y) const {
+    const int band = y % kTileSize / kBlockSize;
+    for (int x = rect.x0; x < rect.x1;) {
+      const size_t tile = static_cast<size_t>(y / kTileSize) * static_cast<size_t>(fb.tiles_x) +
+                          static_cast<size_t>(x / kTileSize);
+      const int clear_end = direct ? end_of_clear(tile, band, x / kTileSize * kTileSize) : x;
+      if (clear_end > x) {
+        rows.fill_rows(fb.tiles[tile].color[plane].rgba8, clear_end - x, kBlockSize, at(x, y));
+        x = clear_end;
+        continue;
+      }
+      const int end = std::min(x / kTileSize * kTileSize + kTileSize, rect.x1);
+      if (end - x == kTileSize) {
+        alignas(64) uint32_t clear_row[kBlockSize];
+        std::fill_n(clear_row, kBlockSize, fb.tiles[tile].color[plane].rgba8);
+        const TileBand from = tile_band(fb, tile, plane, band, clear_row);
+        if (direct) rows.copy_band(from, at(x, y));
+        else convert_tile(from, x, y);
+      } else {
+        for (int row = 0; row < kBlockSize; ++row) resolve_row(fb, plane, x, end, y + row, placed);
+      }
+      x = end;
+    }
+  }
+};
 
 }  // namespace
 
@@ -252,12 +285,28 @@ void read_row_stencil(const Framebuffer::Impl& fb, int x0, int x1, int y, uint8_
   });
 }
 
-void resolve_tile(const Framebuffer::Impl& fb, uint32_t tile, int plane, const LinearImage& image, int left,
-                  int bottom) {
+void resolve_tiles(const Framebuffer::Impl& fb, uint32_t first, uint32_t count, int plane, const LinearImage& image,
+                   int left, int bottom) {
   const Placed placed{image, left, bottom};
-  const Rect rect = intersect(fb.tile_rect(tile), placed.rect());
-  if (rect.empty() || resolve_whole_tile(fb, tile, plane, rect, placed)) return;
-  for (int y = rect.y0; y < rect.y1; ++y) resolve_row(fb, plane, rect.x0, rect.x1, y, placed);
+  Rect tiles = fb.tile_rect(first);
+  tiles.x1 = fb.tile_rect(first + count - 1).x1;
+  const Rect rect = intersect(tiles, placed.rect());
+  if (rect.empty()) return;
+  const bool in_bands = fb.format == ColorFormat::rgba8 && !image.float_components;
+  const BandWriter bands(fb, plane, placed, rect);
+  for (int y = rect.y0; y < rect.y1;) {
+    if (in_bands && y % kBlockSize == 0 && y + kBlockSize <= rect.y1) {
+      bands.write(y);
+      y += kBlockSize;
+      continue;
+    }
+    for (int x = rect.x0; x < rect.x1;) {
+      const int end = std::min(x / kTileSize * kTileSize + kTileSize, rect.x1);
+      resolve_row(fb, plane, x, end, y, placed);
+      x = end;
+    }
+    ++y;
+  }
 }
 
 namespace {

@@ -5,10 +5,11 @@
 
 namespace halfspace::raster {
 
-// Converts the part of `tile` that both the framebuffer and the image have. (left, bottom): the framebuffer's pixel
-// that is the image's lowest-left one. `plane`: an index, as of all planes here.
-void resolve_tile(const Framebuffer::Impl& framebuffer, uint32_t tile, int plane, const LinearImage& image,
-                  int left = 0, int bottom = 0);
+// Converts the part of `count` neighbouring tiles of one row of tiles, from `first` on, that both the framebuffer and the
+// image have. (left, bottom): the framebuffer's pixel that is the image's lowest-left one. `plane`: an index, as of all
+// planes here.
+void resolve_tiles(const Framebuffer::Impl& framebuffer, uint32_t first, uint32_t count, int plane,
+                   const LinearImage& image, int left = 0, int bottom = 0);
 
 // Rows of the framebuffer: pixels [x0, x1) of row y, inside the framebuffer. Blocks that are only marked as cleared
 // read as their clear value.
