@@ -83,6 +83,11 @@ struct alignas(64) PixelQueue {
   int count = 0;
 };
 
+// As many pixels of a tile as a kernel has lanes: the how many-th such group it is, and which of them are live.
+struct TileGroup {
+  uint16_t index, live;
+};
+
 struct alignas(64) BlockContext {
   float slot[kSlotCount][kBlockPixels];
   const FragmentParams* params;
@@ -98,6 +103,8 @@ struct alignas(64) BlockContext {
   float* color_planes;    // rgba32f
   const float* coverage;  // of the block's pixels, in [0, 1]; where the program asks for it
   const PixelQueue* queue;  // packed fragments instead of the block's, or unused
+  TileGroup* groups;        // all that a primitive covers of a tile; then colour and depth are the tile's
+  int group_count;
   StageMeter* meter = nullptr;  // null: nothing is counted
 };
 

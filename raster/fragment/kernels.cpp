@@ -17,6 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/exact_math.inl"
 #include "raster/fragment/lanes.inl"
 #include "raster/fragment/tile_lanes.inl"
+#include "raster/fragment/group_lanes.inl"
 #include "raster/fragment/bytes.inl"
 #include "raster/fragment/wide.inl"
 #include "raster/fragment/stages/alpha_test.inl"
@@ -194,6 +195,11 @@ concept RunsInTiles = requires { Body::kInTiles; } && Body::kInTiles;
 template <class Body>
 concept TakesAlpha = requires { Body::kTakesAlpha; } && Body::kTakesAlpha;
 
+HWY_INLINE bool AlphaIsLevel(const BlockContext& c) {
+  const int alpha = c.params->color_plane + 3;
+  return c.setup->dfdx_f[alpha][c.lane] == 0 && c.setup->dfdy_f[alpha][c.lane] == 0;
+}
+
 template <class L, StageId... ids>
 HWY_INLINE void RunBlocks(const BlockContext& c) {
   const OnceAll<L, ids...> once(c);
@@ -212,11 +218,52 @@ template <StageId... ids>
 void RunTileBlocks(BlockContext& c) {
   constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
   if constexpr ((TakesAlpha<typename BodyOf<ids>::Type> || ...)) {
-    const int alpha = c.params->color_plane + 3;
-    if (c.setup->dfdx_f[alpha][c.lane] == 0 && c.setup->dfdy_f[alpha][c.lane] == 0)
+    if (AlphaIsLevel(c))
       return RunBlocks<std::conditional_t<kKills, TileLanes<true>, FullTileLanes<true>>, ids...>(c);
   }
   RunBlocks<std::conditional_t<kKills, TileLanes<false>, FullTileLanes<false>>, ids...>(c);
+}
+
+// Groups that lose all their lanes leave the list: without a branch, which could not be guessed.
+template <class L, StageId... ids>
+HWY_INLINE void RunListedGroups(BlockContext& c) {
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  const OnceAll<L, ids...> once(c);
+  TileGroup* left = c.groups;
+  const TileGroup* const end = c.groups + c.group_count;
+  for (const TileGroup* group = c.groups; group != end; ++group) {
+    const int i = group->index * kLanes;
+    Lanes v;
+    v.live = MaskFromBits(group->live);
+    (Step<L, ids>(c, once, i, v) && ...);
+    if constexpr (kKills) {
+      const unsigned live = MaskBits(v.live);
+      *left = {static_cast<uint16_t>(i / kLanes), static_cast<uint16_t>(live)};
+      left += live != 0 ? 1 : 0;
+    }
+  }
+  if constexpr (kKills) c.group_count = static_cast<int>(left - c.groups);
+}
+
+template <StageId... ids>
+void RunTileGroups(BlockContext& c) {
+  if constexpr ((TakesAlpha<typename BodyOf<ids>::Type> || ...)) {
+    if (AlphaIsLevel(c)) return RunListedGroups<GroupLanes<true>, ids...>(c);
+  }
+  RunListedGroups<GroupLanes<false>, ids...>(c);
+}
+
+// Stages that look at a fragment's depth say so.
+template <class Body>
+concept TakesDepth = requires { Body::kTakesDepth; };
+
+// By groups go depth tests, alone, and runs that take a colour to memory: neither hands on slots.
+template <StageId first, StageId... others>
+constexpr bool GoesByGroups() {
+  if constexpr (kLanes < kBlockSize) return false;
+  else if constexpr (sizeof...(others) == 0) return TakesDepth<typename BodyOf<first>::Type>;
+  else return BodyOf<first>::kReads == kNone && !BodyOf<first>::Type::kKills &&
+              (StoresPixels<typename BodyOf<others>::Type> || ...);
 }
 
 // A kernel and the stages it runs; `packed` is null where the lanes cannot be packed.
@@ -225,10 +272,6 @@ struct Entry {
   int count;
   KernelPair kernels;
 };
-
-// Stages that look at a fragment's depth say so.
-template <class Body>
-concept TakesDepth = requires { Body::kTakesDepth; };
 
 template <StageId... ids>
 constexpr Entry MakeEntry() {
@@ -239,6 +282,7 @@ constexpr Entry MakeEntry() {
   constexpr bool kStoresDepth = sizeof...(ids) == 1 && ((ids == StageId::depth_always) || ...);
   if constexpr (kInTiles && (kStores || kStoresDepth) && TakenSlots<ids...>() == 0)
     entry.kernels.tile = &RunTileBlocks<ids...>;
+  if constexpr (kInTiles && GoesByGroups<ids...>()) entry.kernels.groups = &RunTileGroups<ids...>;
   if constexpr (sizeof...(ids) == 1) {
     entry.kernels.given_depth = entry.kernels.block;
     if constexpr ((TakesDepth<typename BodyOf<ids>::Type> && ...))

@@ -410,6 +410,15 @@ TileCode find_tile_code(const StageList& list) {
   return {kernels.tile, kernels.block, stores_one_value(list), overwrites(list)};
 }
 
+void find_group_kernels(const CodeKey& key, const StageList& list, BlockProgram& blocks) {
+  const int first = key.tests_depth ? 1 : 0;
+  if (list.count <= first) return;
+  const BlockFunction depth = first != 0 ? find_kernels(list.ids.data(), first).groups : nullptr;
+  if (first != 0 && depth == nullptr) return;
+  blocks.groups = find_kernels(&list.ids[static_cast<size_t>(first)], list.count - first).groups;
+  blocks.groups_depth = depth;
+}
+
 BlockProgram cover_blocks(const CodeKey& key, const StageList& list) {
   BlockProgram blocks;
   const bool fuses = key.fuse && !key.given_depth;
@@ -419,6 +428,7 @@ BlockProgram cover_blocks(const CodeKey& key, const StageList& list) {
     blocks.head = blocks.count;
   }
   cover(list, key.both_planes ? list.tail : 0, list.count, fuses, kind, blocks);
+  if (fuses && key.may_pack) find_group_kernels(key, list, blocks);
   if (key.both_planes || key.given_depth || !key.fuse) return blocks;
   blocks.whole = find_tile_code(list);
   StageList rest = list;

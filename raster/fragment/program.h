@@ -43,6 +43,8 @@ struct BlockProgram {
   int count = 0;
   TileCode whole;   // all of it
   TileCode nearer;  // all but the depth test it begins with
+  // All of it on groups of a tile (BlockContext::groups): a depth test, or null, and the rest. Null: there are none such.
+  BlockFunction groups_depth = nullptr, groups = nullptr;
   int head = 0;  // kernels before the first that touches colour memory, where there are two planes to do that to
   void run(BlockContext& block) const { run(block, 0, count); }
   void run_head(BlockContext& block) const { run(block, 0, head); }
@@ -121,6 +123,7 @@ struct KernelPair {
   BlockFunction block = nullptr, packed = nullptr;
   BlockFunction given_depth = nullptr;  // of one stage only: where fragments bring their own depth
   BlockFunction tile = nullptr;         // of a whole list: on whole blocks of a tile
+  BlockFunction groups = nullptr;       // of a depth test, or of a whole list after it: on groups of a tile
 };
 KernelPair find_kernels(const StageId* ids, int count);
 

@@ -123,7 +123,22 @@ class BlockDepths {
     return coarse;
   }
 
-  // After all pixels of `tested` were tested and written, and those of `nearer` written.
+  // What Compare finds hidden, and nothing else.
+  HWY_INLINE uint64_t Hidden(const TileState& state) const {
+    const DD d;
+    const VD scale = hn::Set(d, kDepthScale), one = hn::Set(d, 1.0);
+    uint64_t hidden = 0;
+    for (int row = first_; row <= last_; ++row) {
+      for (int i = 0; i < 8; i += kDoubleLanes) {
+        const int block = row * 8 + i;
+        const VD deepest = hn::PromoteTo(d, Load(state.depth_max + block));
+        const VD least = hn::Sub(hn::Min(Least(row, i), scale), one);
+        hidden |= BitsOfMask(d, hn::Gt(least, hn::Add(deepest, one))) << block;
+      }
+    }
+    return hidden;
+  }
+
   // After all pixels of `tested` were tested and written, and those of `nearer` written.
   HWY_INLINE void Update(uint64_t tested, uint64_t nearer, TileState& state) const {
     const DDi d;

@@ -49,6 +49,7 @@ struct TileContext {
   bool input_is_clear;
   Packer packer;
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
+  TileGroup groups[kTilePixels / kBlockSize + 1];  // what a triangle covers, and room for an empty one
 };
 
 #include "raster/tile/coarse_depth.inl"
@@ -236,13 +237,28 @@ HWY_NOINLINE void NoteFilled(TileContext& t, int lane, uint64_t blocks) {
 
 #include "raster/tile/whole_blocks.inl"
 
+// Blocks that are covered all over.
+void TakeWholeBlocks(TileContext& t, int lane, uint64_t covered, const BlockProgram& stages) {
+  if (covered == 0) return;
+  if ((t.packer.blocks & covered) != 0) FlushPacked(t);
+  RunWholeBlocks(t, lane, covered, stages);
+  if (HWY_UNLIKELY(t.notes != nullptr)) NoteFilled(t, lane, covered);
+}
+
+#include "raster/tile/group_walk.inl"
+
 void WalkTriangle(TileContext& t, int lane, bool packs) {
   if (TileHides(t, lane)) return;
-  const TriangleWalk walk(t.setup, lane);
   t.even = HasEvenColor(t, lane);
   const BlockProgram& stages = t.even ? t.program->even : t.program->variants[t.setup.variant[lane]];
   const bool collects =
       stages.whole.fills || (t.notes == nullptr && (stages.whole.tile != nullptr || stages.nearer.tile != nullptr));
+  if (stages.groups != nullptr && t.notes == nullptr && t.block.meter == nullptr) {
+    WalkGroups(t, lane, stages, collects);
+    t.even = false;
+    return;
+  }
+  const TriangleWalk walk(t.setup, lane);
   const bool whole = !t.masks_blocks && walk.CoversTile();
   uint64_t covered = 0;
   if (whole && collects) {
@@ -253,11 +269,7 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
   } else {
     covered = WalkBlocks(t, walk, lane, packs, collects);
   }
-  if (covered != 0) {
-    if ((t.packer.blocks & covered) != 0) FlushPacked(t);
-    RunWholeBlocks(t, lane, covered, stages);
-    if (HWY_UNLIKELY(t.notes != nullptr)) NoteFilled(t, lane, covered);
-  }
+  TakeWholeBlocks(t, lane, covered, stages);
   t.even = false;
 }
 

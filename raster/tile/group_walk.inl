@@ -1,0 +1,183 @@
+// Triangles whose program takes many blocks in one call: which blocks of the tile, and which pixels of each.
+// Exact in int32, as triangle.inl is. Compiled once per ISA level.
+
+// One bit a lane: set where the value is negative.
+template <class D>
+HWY_INLINE unsigned NegativeLanes(D d, hn::Vec<D> v) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)d;
+  return hn::GetLane(v) < 0 ? 1u : 0u;
+#elif HWY_TARGET == HWY_AVX3
+  (void)d;
+  if constexpr (sizeof v == 64)
+    return _cvtmask16_u32(_mm512_movepi32_mask(v.raw));
+  else
+    return _cvtmask8_u32(_mm256_movepi32_mask(v.raw));
+#elif HWY_TARGET == HWY_AVX2
+  (void)d;
+  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(v.raw)));
+#elif HWY_TARGET == HWY_SSE4
+  (void)d;
+  return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(v.raw)));
+#else
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, hn::Lt(v, hn::Zero(d)), bits);
+  return bits[0];
+#endif
+}
+
+alignas(64) inline constexpr int32_t kColumnOfLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+alignas(64) inline constexpr int32_t kRowOfLane[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
+
+struct GroupWalk {
+  using DP = hn::CappedTag<int32_t, 16>;          // pixels: two rows of a block, one, or a part of one
+  using DB = hn::CappedTag<int32_t, kBlockSize>;  // blocks: a row of the tile's, or a part of one
+  static constexpr int kPixels = static_cast<int>(hn::MaxLanes(DP())),
+                       kBlocks = static_cast<int>(hn::MaxLanes(DB()));
+
+  int32_t edge[3], step_x[3], step_y[3];
+
+  HWY_INLINE GroupWalk(const SetupBatch& s, int lane) {
+    for (int k = 0; k < 3; ++k)
+      edge[k] = s.edge[k][lane], step_x[k] = s.step_x[k][lane], step_y[k] = s.step_y[k][lane];
+  }
+
+  // Pixels inside, of the 8x8 whose lowest-left one is (x, y) of the tile.
+  HWY_INLINE uint64_t Pixels(int x, int y) const {
+    const DP d;
+    constexpr int kColumns = kPixels < kBlockSize ? kPixels : kBlockSize, kRows = kPixels / kColumns;
+    uint64_t outside = 0;
+    for (int column = 0; column < kBlockSize; column += kColumns) {
+      hn::Vec<DP> e[3], step[3];
+      for (int k = 0; k < 3; ++k) {
+        const auto across = hn::Mul(hn::Load(d, kColumnOfLane), hn::Set(d, step_x[k]));
+        e[k] = hn::Add(across, hn::Set(d, edge[k] + step_x[k] * (x + column) + step_y[k] * y));
+        step[k] = hn::Set(d, step_y[k] * kRows);
+        if constexpr (kRows > 1)
+          e[k] = hn::Add(e[k], hn::Mul(hn::Load(d, kRowOfLane), hn::Set(d, step_y[k])));
+      }
+      for (int row = 0; row < kBlockSize; row += kRows) {
+        outside |= uint64_t{NegativeLanes(d, hn::Or3(e[0], e[1], e[2]))} << (row * kBlockSize + column);
+        for (int k = 0; k < 3; ++k) e[k] = hn::Add(e[k], step[k]);
+      }
+    }
+    return ~outside;
+  }
+
+  // Of the tile's blocks in the box of pixels from (x0, y0) to (x1, y1): those the triangle may touch, and
+  // those it covers.
+  HWY_INLINE void Blocks(int x0, int y0, int x1, int y1, uint64_t& touched, uint64_t& covered) const {
+    const DB d;
+    touched = covered = 0;
+    const unsigned columns = (2u << (x1 / kBlockSize)) - (1u << (x0 / kBlockSize));
+    for (int column = 0; column < kBlockSize; column += kBlocks) {
+      hn::Vec<DB> most[3], least[3];  // of the edge's values in each block
+      for (int k = 0; k < 3; ++k) {
+        const int32_t rise_x = step_x[k] > 0 ? step_x[k] : 0, rise_y = step_y[k] > 0 ? step_y[k] : 0;
+        const int32_t highest = (kBlockSize - 1) * (rise_x + rise_y);
+        const int32_t lowest = (kBlockSize - 1) * (step_x[k] - rise_x + step_y[k] - rise_y);
+        const auto at = hn::Add(hn::Mul(hn::Load(d, kColumnOfLane), hn::Set(d, step_x[k] * kBlockSize)),
+                                hn::Set(d, edge[k] + step_x[k] * kBlockSize * column));
+        most[k] = hn::Add(at, hn::Set(d, highest));
+        least[k] = hn::Add(at, hn::Set(d, lowest));
+      }
+      for (int row = y0 / kBlockSize; row <= y1 / kBlockSize; ++row) {
+        hn::Vec<DB> high[3], low[3];
+        for (int k = 0; k < 3; ++k) {
+          const auto up = hn::Set(d, step_y[k] * kBlockSize * row);
+          high[k] = hn::Add(most[k], up), low[k] = hn::Add(least[k], up);
+        }
+        const unsigned outside = NegativeLanes(d, hn::Or3(high[0], high[1], high[2]));
+        const unsigned crossed = NegativeLanes(d, hn::Or3(low[0], low[1], low[2]));
+        const unsigned inside = ~outside & (columns >> column) & ((1u << kBlocks) - 1);
+        touched |= uint64_t{inside} << (row * kBlockSize + column);
+        covered |= uint64_t{inside & ~crossed} << (row * kBlockSize + column);
+      }
+    }
+  }
+};
+
+// The triangle lies all over these blocks and lowers their depths.
+HWY_INLINE void LowerDepthMax(TileContext& t, int lane, uint64_t blocks) {
+  const double gx = t.setup.dfdx[0][lane], gy = t.setup.dfdy[0][lane];
+  const double x = t.setup.anchor_x[lane] + (gx > 0 ? kBlockSize - 1 : 0);
+  const double y = t.setup.anchor_y[lane] + (gy > 0 ? kBlockSize - 1 : 0), f0 = t.setup.f0[0][lane] + 1.0;
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int block = __builtin_ctzll(blocks);
+    const double greatest = f0 + gy * (y + block / 8 * kBlockSize) + gx * (x + block % 8 * kBlockSize);
+    if (greatest < 0 || greatest >= static_cast<double>(t.state->depth_max[block])) continue;
+    t.state->depth_max[block] = static_cast<uint32_t>(greatest);
+    t.knows_deepest = false;
+  }
+}
+
+// As many lanes as the kernels of fragments have.
+inline constexpr int kGroupLanes = static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 16>()));
+inline constexpr int kTileGroups = kTileSize * kTileSize / kGroupLanes;
+
+// What a primitive covers of a tile, block by block.
+struct GroupList {
+  TileGroup* groups;
+  int count = 0;
+  uint64_t fragments = 0;
+  HWY_INLINE explicit GroupList(TileGroup* memory) : groups(memory) {}
+  // Without a branch: what is empty is written over by the next one.
+  HWY_INLINE void Add(int block, uint64_t mask) {
+    for (int i = 0; i < kBlockPixels; i += kGroupLanes) {
+      const auto live = static_cast<uint16_t>(mask >> i & ((uint64_t{1} << kGroupLanes) - 1));
+      groups[count] = {static_cast<uint16_t>((block * kBlockPixels + i) / kGroupLanes), live};
+      count += live != 0 ? 1 : 0;
+    }
+    fragments += static_cast<uint64_t>(__builtin_popcountll(mask));
+  }
+};
+
+// Runs the program on a list in these blocks.
+HWY_INLINE void RunGroups(TileContext& t, int lane, const GroupList& list, uint64_t blocks,
+                          const BlockProgram& stages) {
+  if ((t.packer.blocks & blocks) != 0) FlushPacked(t);
+  PrepareWindow(t, blocks);
+  t.statistics->fragments += list.fragments;
+  BlockContext& c = t.block;
+  c.lane = lane;
+  c.groups = list.groups;
+  c.group_count = list.count;
+  if (t.program->reads_depth) c.depth = t.framebuffer->depth_tile(t.tile);
+  c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
+  if (stages.groups_depth != nullptr) stages.groups_depth(c);
+  stages.groups(c);
+}
+
+// With as many blocks that are covered all over, what the planes of a tile cost is made up for.
+inline constexpr int kManyBlocks = 16;
+
+// A triangle larger than a window. `collects`: RunWholeBlocks can take blocks.
+void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool collects) {
+  const SetupBatch& s = t.setup;
+  const GroupWalk walk(s, lane);
+  uint64_t touched, covered;
+  walk.Blocks(s.min_x[lane], s.min_y[lane], s.max_x[lane], s.max_y[lane], touched, covered);
+  if (t.masks_blocks) covered = 0;
+  if (touched == 0) return;
+  if (t.program->rejects_deeper) touched &= ~BlockDepths(s, lane, touched).Hidden(*t.state);
+  covered &= touched;
+  if (collects && covered != 0 && (stages.whole.fills || __builtin_popcountll(covered) >= kManyBlocks)) {
+    TakeWholeBlocks(t, lane, covered, stages);
+    touched &= ~covered;
+    covered = 0;
+  }
+  GroupList list(t.groups);
+  uint64_t blocks = 0;
+  for (uint64_t todo = touched; todo != 0; todo &= todo - 1) {
+    const int block = __builtin_ctzll(todo);
+    const uint64_t bit = todo & (~todo + 1);
+    uint64_t mask = ~uint64_t{0};
+    if ((covered & bit) == 0) mask = walk.Pixels(block % 8 * kBlockSize, block / 8 * kBlockSize);
+    if (t.masks_blocks) mask &= BlockMask(t, block);
+    list.Add(block, mask);
+    blocks |= mask != 0 ? bit : 0;
+  }
+  if (list.count == 0) return;
+  RunGroups(t, lane, list, blocks, stages);
+  if (covered != 0 && t.program->depth_pass_lowers) LowerDepthMax(t, lane, covered);
+}
