@@ -1,4 +1,4 @@
-"""Programs that were built for the system's libGL run on ours: by library path, and preloaded.
+"""Programs that were built for the system's libGL run on ours: by library path, preloaded, and as libglvnd's vendor.
 
     programs_test.py DIRECTORY_OF_OUR_LIBGL GLUT_PICTURE
 
@@ -24,6 +24,7 @@ def environment(**extra):
 
 BY_PATH = environment(LD_LIBRARY_PATH=OURS)
 PRELOADED = environment(LD_PRELOAD=OURS / "libGL.so.1")
+BY_VENDOR = environment(LD_LIBRARY_PATH=OURS / "glvnd", __GLX_VENDOR_LIBRARY_NAME="halfspace")
 SYSTEM = environment(LIBGL_ALWAYS_SOFTWARE="1")
 
 
@@ -53,12 +54,15 @@ class Programs(unittest.TestCase):
             self.assertEqual(result.stderr, "")
         return result.stdout, read_ppm(path)
 
-    def test_path_and_preload_show_the_same(self):
+    def test_path_preload_and_vendor_show_the_same(self):
         renderer, by_path = self.picture(BY_PATH, "path.ppm")
         self.assertTrue(renderer.startswith("Halfspace"), renderer)
         renderer, preloaded = self.picture(PRELOADED, "preload.ppm")
         self.assertTrue(renderer.startswith("Halfspace"), renderer)
         self.assertEqual(by_path, preloaded)
+        renderer, by_vendor = self.picture(BY_VENDOR, "vendor.ppm")
+        self.assertTrue(renderer.startswith("Halfspace"), renderer)
+        self.assertEqual(by_path, by_vendor)
         self.assertGreater(len(set(zip(*[iter(by_path[2])] * 3))), 100, "the picture has no content")
 
     def test_the_system_shows_the_same(self):
@@ -88,7 +92,7 @@ class Programs(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("glxinfo"), "glxinfo is not installed")
     def test_glxinfo(self):
-        for env in (BY_PATH, PRELOADED):
+        for env in (BY_PATH, PRELOADED, BY_VENDOR):
             result = run(["glxinfo"], env)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("OpenGL renderer string: Halfspace", result.stdout)

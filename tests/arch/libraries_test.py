@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """The shipped libraries ask for nothing but libc, libm and, for GLX, libX11 and libXext.
 
-    libraries_test.py LIBGL.SO LIBOSMESA.SO
+    libraries_test.py LIBGL.SO LIBOSMESA.SO LIBGLX_HALFSPACE.SO
 """
 import re
 import subprocess
 import sys
 
 ALWAYS = {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
-SHIPPED = [("libGL.so.1", ALWAYS | {"libX11.so.6", "libXext.so.6"}), ("libOSMesa.so.8", ALWAYS)]
+X11 = {"libX11.so.6", "libXext.so.6"}
+SHIPPED = [("libGL.so.1", ALWAYS | X11), ("libOSMesa.so.8", ALWAYS), ("libGLX_halfspace.so.0", ALWAYS | X11)]
 
 
 def problems_of(soname, allowed, dynamic):
@@ -36,7 +37,7 @@ def self_test():
 def main():
     self_test()
     problems = []
-    for (soname, allowed), path in zip(SHIPPED, sys.argv[1:3], strict=True):
+    for (soname, allowed), path in zip(SHIPPED, sys.argv[1:4], strict=True):
         dynamic = subprocess.run(["readelf", "-d", path], check=True, capture_output=True, text=True,
                                  env={"LC_ALL": "C", "PATH": "/usr/bin:/bin"}).stdout
         problems += problems_of(soname, allowed, dynamic)
