@@ -62,7 +62,8 @@ target_link_libraries(gl_client PRIVATE Halfspace::GL)
 """
 
 INSTALLED = ["lib/libGL.so.1", "lib/libGL.so", "lib/libOSMesa.so.8", "lib/libOSMesa.so",
-             "lib/glvnd/libGLX_halfspace.so.0", "bin/halfspace", "lib/pkgconfig/gl.pc", "lib/pkgconfig/osmesa.pc", "lib/cmake/Halfspace/HalfspaceConfig.cmake"]
+             "lib/glvnd/libGLX_halfspace.so.0", "bin/halfspace", "lib/pkgconfig/gl.pc",
+             "lib/pkgconfig/osmesa.pc", "lib/cmake/Halfspace/HalfspaceConfig.cmake"]
 
 
 class Failure(Exception):
