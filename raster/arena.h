@@ -27,6 +27,12 @@ class Arena {
     total_ += bytes;
     return p;
   }
+  // Takes back what was allocated last.
+  void take_back(size_t bytes) {
+    bytes = (bytes + 63) & ~size_t{63};
+    used_ -= bytes;
+    total_ -= bytes;
+  }
   size_t bytes_in_use() const { return total_; }
   void reset() {
     // Buffers of unusual size are not kept.

@@ -83,7 +83,7 @@ bool Batch::is_covered_by(const ClearCommand& command, const Framebuffer::Impl& 
 
 bool Batch::is_full(uint32_t scale) const {
   size_t primitives = 0;
-  for (const Segment* segment : pending_) primitives += segment->primitives.size();
+  for (const Segment* segment : pending_) primitives += segment->primitives.size() + segment->point_count / 2;
   const bool many_texels = textures_.size() > 1 && texture_bytes_ > kMaxTextureBytes;
   return arena.bytes_in_use() > kMaxBytes * scale || many_texels || primitives > kMaxPrimitives * scale ||
          draws.size() >= kMaxDraws;

@@ -13,6 +13,7 @@
 #include "raster/batch.h"
 #include "raster/primitive/assembly.h"
 #include "raster/primitive/pixel_rect.h"
+#include "raster/primitive/point_run.h"
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/window_box.h"
 #include "raster/statistics.h"
@@ -285,9 +286,12 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.edge_flags = packet.batch.edge_flag;
   record.stipple_start = packet.continues ? stipple : 0;
   record.vertices.layout = layout;
+  record.runs_points = points_run(record, packet.primitive) && !notes;
   shade(packet, record.vertices);
   find_clip_distances(packet.batch, record);
   assemble_draw(record, packet, primitive_count(packet.primitive, packet.index_count));
+  // Points in runs bring along all that is needed.
+  if (record.runs_points) filling->arena.take_back(size_t{packet.batch.count} * layout.stride());
   // Clip coordinates and outcodes have done their work; the next draw takes their memory.
   record.vertices.outcodes.swap(outcodes);
   record.vertices.clip.swap(clip);

@@ -1,12 +1,14 @@
 #include "raster/primitive/assembly.h"
 
 #include <bit>
+#include <cstring>
 
 #include "raster/primitive/clip.h"
 #include "raster/primitive/patterns.h"
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/triangle_filter.h"
 #include "raster/primitive/window_box.h"
+#include "raster/surface/framebuffer.h"
 
 namespace halfspace::raster {
 
@@ -46,6 +48,8 @@ class Assembler {
         stride_(draw.vertices.layout.stride()),
         outcodes_(draw.vertices.outcodes.data()),
         bounds_(draw.bounds),
+        runs_points_(draw.runs_points),
+        color_(draw.vertices.layout.color),
         clipper_(draw) {
     const RasterState& raster = draw.state->raster;
     front_is_ccw_ = raster.front_is_ccw;
@@ -86,21 +90,13 @@ class Assembler {
   }
 
   void points(uint32_t first, uint32_t count) {
-    // Room for all at once: a list that grows at each point has its end written to memory and read again.
-    std::vector<PrimitiveRef>& primitives = segment_.primitives;
-    size_t end = primitives.size();
-    primitives.resize(end + count);
-    PrimitiveRef* const refs = primitives.data();
+    if (runs_points_) return run_points(first, count);
     for (uint32_t k = first; k < first + count; ++k) {
       const uint32_t v = vertex(k);
-      if (outcodes_[v] != 0) continue;
-      const VertexHead& at = head(v);
-      const int px = at.x >> kSubpixelBits, py = at.y >> kSubpixelBits;
-      if (px < bounds_.x0 || px >= bounds_.x1 || py < bounds_.y0 || py >= bounds_.y1) continue;
-      push_to_bin(segment_, px / kTileSize, py / kTileSize, uint32_t(end));
-      refs[end++] = {{v, v, v}, PrimitiveKind::point, false, false, 0};
+      int px, py;
+      if (is_point_seen(v, px, py))
+        push_to_bin(segment_, px / kTileSize, py / kTileSize, append({{v, v, v}, PrimitiveKind::point, false, false, 0}));
     }
-    primitives.resize(end);
   }
 
  private:
@@ -214,6 +210,42 @@ class Assembler {
     bin_box(segment_, tile_box(box), append({{index, 0, 0}, PrimitiveKind::line, true, false, 0}));
   }
 
+  bool is_point_seen(uint32_t v, int& px, int& py) const {
+    px = head(v).x >> kSubpixelBits, py = head(v).y >> kSubpixelBits;
+    return outcodes_[v] == 0 && px >= bounds_.x0 && px < bounds_.x1 && py >= bounds_.y0 && py < bounds_.y1;
+  }
+
+  // A tile's points follow each other in memory, whatever came between.
+  void run_points(uint32_t first, uint32_t count) {
+    segment_.points.resize(segment_.bins.size());
+    const auto first_run = uint32_t(segment_.primitives.size());
+    for (uint32_t k = first; k < first + count; ++k) {
+      const uint32_t v = vertex(k);
+      int px, py;
+      if (!is_point_seen(v, px, py)) continue;
+      const size_t tile = size_t(py / kTileSize) * size_t(segment_.tiles_x) + size_t(px / kTileSize);
+      TilePoints& points = segment_.points[tile];
+      if (points.run_end <= first_run) start_run(points, uint32_t(tile));
+      PointPacket point;
+      point.offset = tile_offset(px, py);
+      point.depth = int32_t(head(v).z * double(kDepthMax) + 0.5);
+      if (color_ >= 0) std::memcpy(point.color, reinterpret_cast<const float*>(&head(v) + 1) + color_, sizeof point.color);
+      points.packets.push_back(point);
+    }
+    for (size_t i = first_run; i < segment_.primitives.size(); ++i) {
+      PrimitiveRef& run = segment_.primitives[i];
+      run.v[1] = uint32_t(segment_.points[run.v[2]].packets.size()) - run.v[0];
+      segment_.point_count += run.v[1];
+    }
+  }
+
+  void start_run(TilePoints& points, uint32_t tile) {
+    const auto begin = uint32_t(points.packets.size());
+    const uint32_t run = append({{begin, 0, tile}, PrimitiveKind::point_run, false, false, 0});
+    push_to_bin(segment_, int(tile) % segment_.tiles_x, int(tile) / segment_.tiles_x, run);
+    points.run_end = run + 1;
+  }
+
   Segment& segment_;
   const uint32_t* indices_;
   uint32_t index_count_;
@@ -221,6 +253,8 @@ class Assembler {
   size_t stride_;
   const uint16_t* outcodes_;
   Rect bounds_;
+  bool runs_points_;
+  int color_;
   bool front_is_ccw_;
   int64_t culled_from_, culled_to_;  // signed areas that are dropped; 0 always is
   TriangleFilter filter_;

@@ -19,6 +19,11 @@ inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 inline constexpr int kTilePixels = kTileSize * kTileSize;
 inline constexpr int kTileBlocks = kTilePixels / kBlockPixels;
 
+// Where a pixel of a tile lies in its memory.
+inline int tile_offset(int x, int y) {
+  return (y & 56) * kBlockPixels + (x & 56) * kBlockSize + (y & 7) * kBlockSize + (x & 7);
+}
+
 inline constexpr int kMaxColorPlanes = 2;
 // Where a ColorPlane lies among a framebuffer's planes.
 inline int plane_index(ColorPlane plane) { return plane == kFrontPlane ? 1 : 0; }

@@ -150,11 +150,9 @@ struct Packer {
     }
   }
 
-  // A point's fragment, at a pixel of the tile, if it passes the depth test. Its planes are level, so that they need no
-  // set-up: `color` is its colour, 0..255, or null where none is asked for.
-  HWY_INLINE void AppendPoint(double z, const float* color, int x, int y, const PipelineProgram& program,
-                              uint32_t* depth) {
-    const int at = TileOffset(x, y);
+  // A point's fragment, at the pixel `at` of the tile, if its depth of 24 bits passes the test. Its planes are level, so
+  // that they need no set-up: `color` is its colour, 0..255, or null where none is asked for.
+  HWY_INLINE void AppendPoint(int32_t z, const float* color, int at, const PipelineProgram& program, uint32_t* depth) {
     if (depth != nullptr && !TestPoint(z, program.depth, depth[at])) return;
     queue.offset[queue.count] = at;
     for (int k = 0; color != nullptr && k < 4; ++k) queue.plane[program.params.color_plane + k][queue.count] = color[k];
@@ -165,10 +163,6 @@ struct Packer {
   HWY_INLINE void SetFlatColor(const SetupBatch& s, int lane, int color_plane, int first) {
     for (int k = 0; k < 4; ++k)
       for (int i = first; i < queue.count; ++i) queue.plane[color_plane + k][i] = s.flat[k][lane];
-  }
-
-  static HWY_INLINE int TileOffset(int x, int y) {
-    return (y & 56) * kBlockPixels + (x & 56) * kBlockSize + (y & 7) * kBlockSize + (x & 7);
   }
 
   static HWY_INLINE hn::Vec<DFq> PlaneAt(const SetupBatch& s, int lane, int plane, hn::Vec<DFq> dx, hn::Vec<DFq> dy) {
@@ -205,8 +199,8 @@ struct Packer {
   }
 
  private:
-  static HWY_INLINE bool TestPoint(double z, const DepthState& test, uint32_t& memory) {
-    const auto value = static_cast<int32_t>(z * kDepthScale + 0.5), old = static_cast<int32_t>(memory);
+  static HWY_INLINE bool TestPoint(int32_t value, const DepthState& test, uint32_t& memory) {
+    const auto old = static_cast<int32_t>(memory);
     if (!PassesDepth(test.func, value, old)) return false;
     if (test.write) memory = static_cast<uint32_t>(value);
     return true;

@@ -3,14 +3,6 @@
 
 inline constexpr size_t kPointsAhead = 8;  // their vertices are asked for while others are drawn
 
-// Points of one pixel whose colour is all that their fragments are made from. At standard accuracy it is the
-// same float whether a plane in float or one in double gives it.
-HWY_INLINE bool PacksPoints(const DrawRecord& draw) {
-  const VertexLayout& layout = draw.vertices.layout;
-  return draw.program->packs && layout.tex_coord < 0 && layout.fog < 0 && !draw.shape.smooth_points &&
-         draw.shape.point_size == 1 && draw.state->accuracy.interpolation != Level::exact;
-}
-
 // False: not such a point.
 bool RunWaitingPoint(TileContext& t, const Segment& segment, const DrawRecord& draw, uint32_t id) {
   const PrimitiveRef& ref = segment.primitives.data()[id];
@@ -29,92 +21,88 @@ bool RunWaitingPoint(TileContext& t, const Segment& segment, const DrawRecord& d
                               : static_cast<float>(static_cast<double>(from[k]) * 255.0);
   }
   uint32_t* depth = PreparePacking(t, kAffine, 1, uint64_t{1} << (y / kBlockSize * 8 + x / kBlockSize));
-  t.packer.AppendPoint(head->z, layout.color >= 0 ? color : nullptr, x, y, *t.program, depth);
+  const auto z = static_cast<int32_t>(head->z * kDepthScale + 0.5);
+  t.packer.AppendPoint(z, layout.color >= 0 ? color : nullptr, tile_offset(x, y), *t.program, depth);
   return true;
 }
 
-// Of those, draws whose points need no look at each other: no depth test, and the colour is the point's own.
-HWY_INLINE bool StreamsPoints(const DrawRecord& draw) {
-  return PacksPoints(draw) && !draw.program->reads_depth && !draw.state->raster.flat_shading &&
-         draw.vertices.layout.back_color < 0;
+// A point of a run, as RunWaitingPoint does it. The product by 255 is rounded once, as it is there, since in
+// double it would be exact.
+HWY_INLINE void RunPacket(TileContext& t, const PointPacket& point, bool colored) {
+  float color[4];
+  for (int k = 0; colored && k < 4; ++k) color[k] = point.color[k] * 255.0f;
+  uint32_t* depth = PreparePacking(t, kAffine, 1, uint64_t{1} << (point.offset / kBlockPixels));
+  t.packer.AppendPoint(point.depth, colored ? color : nullptr, point.offset, *t.program, depth);
 }
 
-#if HWY_TARGET == HWY_SCALAR
-
-HWY_INLINE size_t StreamPoints(TileContext&, const Segment&, const DrawRecord&, const uint32_t*, size_t) {
-  return 0;
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 inline constexpr int kPointGroup = 4;
-using PointColor = hn::CappedTag<float, kPointGroup>;
 
-// The colours of four records, as 0..255, to the four columns that begin at `column`. The product by 255 is
-// rounded once, like RunWaitingPoint's: in double it would be exact.
-HWY_INLINE void QueueColors(const float* const (&colors)[kPointGroup], int column, PixelQueue& queue) {
-  const PointColor d;
+// Colours of four points, as 0..255, to the queue's columns.
+HWY_INLINE void QueueColors(const PointPacket* points, int column, PixelQueue& queue) {
+  const hn::CappedTag<float, kPointGroup> d;
   const auto scale = hn::Set(d, 255.0f);
-  hn::Vec<PointColor> v[kPointGroup];
-  for (int j = 0; j < kPointGroup; ++j) v[j] = hn::Mul(hn::LoadU(d, colors[j]), scale);
-  const auto low_01 = hn::InterleaveLower(d, v[0], v[1]), low_23 = hn::InterleaveLower(d, v[2], v[3]);
-  const auto high_01 = hn::InterleaveUpper(d, v[0], v[1]), high_23 = hn::InterleaveUpper(d, v[2], v[3]);
-  hn::StoreU(hn::ConcatLowerLower(d, low_23, low_01), d, queue.plane[column] + queue.count);
-  hn::StoreU(hn::ConcatUpperUpper(d, low_23, low_01), d, queue.plane[column + 1] + queue.count);
-  hn::StoreU(hn::ConcatLowerLower(d, high_23, high_01), d, queue.plane[column + 2] + queue.count);
-  hn::StoreU(hn::ConcatUpperUpper(d, high_23, high_01), d, queue.plane[column + 3] + queue.count);
+  const auto a = hn::Mul(hn::LoadU(d, points[0].color), scale),
+             b = hn::Mul(hn::LoadU(d, points[1].color), scale);
+  const auto c = hn::Mul(hn::LoadU(d, points[2].color), scale),
+             e = hn::Mul(hn::LoadU(d, points[3].color), scale);
+  const auto low_ab = hn::InterleaveLower(d, a, b), low_ce = hn::InterleaveLower(d, c, e);
+  const auto high_ab = hn::InterleaveUpper(d, a, b), high_ce = hn::InterleaveUpper(d, c, e);
+  hn::StoreU(hn::ConcatLowerLower(d, low_ce, low_ab), d, queue.plane[column] + queue.count);
+  hn::StoreU(hn::ConcatUpperUpper(d, low_ce, low_ab), d, queue.plane[column + 1] + queue.count);
+  hn::StoreU(hn::ConcatLowerLower(d, high_ce, high_ab), d, queue.plane[column + 2] + queue.count);
+  hn::StoreU(hn::ConcatUpperUpper(d, high_ce, high_ab), d, queue.plane[column + 3] + queue.count);
 }
 
-// Points ids[0 .. count), four at a time, up to the first that is cut or no point; how many that were.
-size_t StreamPoints(TileContext& t, const Segment& segment, const DrawRecord& draw, const uint32_t* ids,
-                    size_t count) {
-  const PrimitiveRef* refs = segment.primitives.data();
-  const ShadedVertices& vertices = draw.vertices;
-  const size_t stride = vertices.layout.stride();
-  const int place = vertices.layout.color, column = t.program->params.color_plane;
+// Four points, of which `count` are drawn; the others are overwritten by the next.
+HWY_INLINE uint64_t QueuePoints(TileContext& t, const PointPacket* points, int count, bool colored) {
+  PixelQueue& queue = t.packer.queue;
+  const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
+  uint64_t blocks = 0;
+  for (int j = 0; j < kPointGroup; ++j) {
+    const int32_t at = points[j].offset;
+    queue.offset[queue.count + j] = at;
+    blocks |= uint64_t{1} << (at / kBlockPixels);
+    __builtin_prefetch(color + at, 1);
+  }
+  if (colored) QueueColors(points, t.program->params.color_plane, queue);
+  queue.count += count;
+  return blocks;
+}
+
+// Points four at a time, where no depth test has to look at them one by one.
+void StreamPoints(TileContext& t, const PointPacket* points, uint32_t count, bool colored) {
   Packer& packer = t.packer;
   PixelQueue& queue = packer.queue;
-  const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
-  if (packer.variant != kAffine) FlushPacked(t);
-  packer.variant = kAffine;
-  uint64_t blocks = 0;
-  size_t done = 0;
-  while (done < count) {
-    if (queue.count + kPointGroup > PixelQueue::kCapacity) {
-      PrepareWindow(t, blocks);
-      FlushPacked(t);
-      blocks = 0;
+  t.statistics->fragments += count;
+  for (uint32_t done = 0; done < count;) {
+    if (packer.variant != kAffine || queue.count + kPointGroup > PixelQueue::kCapacity) FlushPacked(t);
+    packer.variant = kAffine;
+    const uint32_t room =
+        static_cast<uint32_t>(PixelQueue::kCapacity - queue.count) / kPointGroup * kPointGroup;
+    const uint32_t end = done + room < count ? done + room : count;
+    uint64_t blocks = 0;
+    for (; done + kPointGroup <= end; done += kPointGroup)
+      blocks |= QueuePoints(t, points + done, kPointGroup, colored);
+    if (done < end) {  // the last ones
+      PointPacket tail[kPointGroup];
+      for (uint32_t j = 0; j < kPointGroup; ++j) tail[j] = points[done + j < end ? done + j : done];
+      blocks |= QueuePoints(t, tail, static_cast<int>(end - done), colored);
+      done = end;
     }
-    // Of less than a group the last stands for those that lack. They are not counted, and overwritten by the
-    // next.
-    const size_t left = count - done, group = left < kPointGroup ? left : kPointGroup;
-    const VertexHead* heads[kPointGroup];
-    bool plain = true;
-    for (size_t j = 0; j < kPointGroup; ++j) {
-      const PrimitiveRef& ref = refs[ids[done + (j < group ? j : group - 1)]];
-      plain &= (ref.kind == PrimitiveKind::point) & !ref.cut;
-      heads[j] = Head(vertices, stride, ref.v[0]);
-    }
-    if (HWY_UNLIKELY(!plain)) break;
-    for (int j = 0; j < kPointGroup; ++j) {
-      const int at =
-          Packer::TileOffset((heads[j]->x >> kSubpixelBits) - t.x, (heads[j]->y >> kSubpixelBits) - t.y);
-      queue.offset[queue.count + j] = at;
-      blocks |= uint64_t{1} << (at / kBlockPixels);
-      __builtin_prefetch(color + at, 1);
-    }
-    if (place >= 0) {
-      const float* const colors[] = {Attributes(heads[0]) + place, Attributes(heads[1]) + place,
-                                     Attributes(heads[2]) + place, Attributes(heads[3]) + place};
-      QueueColors(colors, column, queue);
-    }
-    queue.count += static_cast<int>(group);
+    PrepareWindow(t, blocks);
     packer.blocks |= blocks;
-    done += group;
   }
-  PrepareWindow(t, blocks);
-  t.statistics->fragments += done;
-  return done;
 }
 
 #endif
+
+void RunPoints(TileContext& t, const Segment& segment, const DrawRecord& draw, const PrimitiveRef& run) {
+  const PointPacket* points = segment.points.data()[t.tile].packets.data() + run.v[0];
+  const bool colored = draw.vertices.layout.color >= 0;
+#if HWY_TARGET != HWY_SCALAR
+  if (!t.program->reads_depth) return StreamPoints(t, points, run.v[1], colored);
+#endif
+  for (uint32_t i = 0; i < run.v[1]; ++i) RunPacket(t, points[i], colored);
+}

@@ -4,6 +4,7 @@
 
 #include "raster/isa.h"
 #include "raster/primitive/pixel_rect.h"
+#include "raster/primitive/point_run.h"
 #include "raster/tile/cover_smooth.h"
 #include "raster/tile/coverage.h"
 
@@ -41,7 +42,7 @@ struct TileContext {
   uint32_t deepest = 0;  // of the blocks' depth_max, where that is known
   PixelNote* notes;      // of the tile's pixels, where a view asks for them; then nothing waits to be packed
   bool projective;
-  bool packs_points, streams_points;  // points of one pixel wait with the others, without any set-up
+  bool packs_points;  // points of one pixel wait with the others, without any set-up
   TileStatistics* statistics;
   BlockContext block;
   SetupBatch setup;
@@ -306,20 +307,7 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   t.plane_count = 2 + draw.vertices.layout.attribute_count;
   t.flat_color = draw.vertices.layout.color >= 0 && draw.state->raster.flat_shading;
   t.projective = draw.vertices.layout.projective;
-  t.packs_points = t.notes == nullptr && PacksPoints(draw);
-  t.streams_points = t.packs_points && StreamsPoints(draw);
-}
-
-// How many of the ascending ids come before `end`.
-HWY_INLINE size_t CountBelow(const uint32_t* ids, size_t count, uint32_t end) {
-  if (count == 0 || ids[count - 1] < end) return count;
-  size_t low = 0;
-  while (low < count) {
-    const size_t middle = low + (count - low) / 2;
-    if (ids[middle] < end) low = middle + 1;
-    else count = middle;
-  }
-  return low;
+  t.packs_points = t.notes == nullptr && points_wait(draw);
 }
 
 void RunSegment(TileContext& t, const Segment& segment) {
@@ -337,7 +325,10 @@ void RunSegment(TileContext& t, const Segment& segment) {
       ++at;
       continue;
     }
-    if (t.streams_points) at += StreamPoints(t, segment, record, ids + at, CountBelow(ids + at, total - at, end));
+    if (record.runs_points) {
+      RunPoints(t, segment, record, segment.primitives.data()[ids[at++]]);
+      continue;
+    }
     while (at < total && ids[at] < end) {
       if (t.packs_points && RunWaitingPoint(t, segment, record, ids[at])) {
         if (at + kPointsAhead < total)

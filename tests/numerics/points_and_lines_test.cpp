@@ -1,6 +1,9 @@
 // Points and lines through the whole pipeline (the shapes themselves are tested in lines_test.cpp).
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+
 #include "tests/support/canvas.h"
 #include "tests/support/random.h"
 
@@ -41,6 +44,56 @@ TEST(Points, ThePixelThatHoldsIt) {
           // 0.75 (2^24 - 1) = 12582911.25
           ASSERT_EQ(picture.depth_at(x, y), 12582911u);
         }
+      }
+    }
+  }
+}
+
+// Thousands over each other, over several tiles and more than a batch holds: at each pixel the last one, or
+// the nearest.
+void expect_many(const DrawState& state, bool constant_color, int threads) {
+  constexpr int kSide = 128, kCount = 70000;
+  Random random(23);
+  std::vector<Vertex> points;
+  std::vector<std::array<uint8_t, 4>> expected(kSide * kSide);
+  std::vector<uint32_t> depth(kSide * kSide, ~0u);
+  for (int i = 0; i < kCount; ++i) {
+    const int64_t x = random.integer(0, kSide - 1), y = random.integer(0, kSide - 1),
+                  z = random.integer(0, 1000);
+    std::array<uint8_t, 4> bytes;
+    for (uint8_t& byte : bytes) byte = uint8_t(constant_color ? 77 : random.integer(0, 255));
+    const Color color{float(bytes[0]) / 255, float(bytes[1]) / 255, float(bytes[2]) / 255,
+                      float(bytes[3]) / 255};
+    points.push_back(snapped_vertex(256 * x + random.integer(0, 255), 256 * y + random.integer(0, 255), kSide,
+                                    float(z) / 1024, color));
+    const size_t at = size_t(y * kSide + x);
+    if (state.depth.test && uint32_t(z) >= depth[at]) continue;
+    depth[at] = uint32_t(z);
+    expected[at] = bytes;
+  }
+  Canvas canvas(kSide, kSide, threads);
+  canvas.clear();
+  canvas.draw(state, Primitive::points, points);
+  const Picture picture = canvas.read();
+  for (size_t i = 0; i < expected.size(); ++i)
+    for (size_t k = 0; k < 4; ++k)
+      ASSERT_EQ(int(picture.rgba[4 * i + k]), int(expected[i][k])) << "pixel " << i;
+}
+
+TEST(Points, ManyComeInTheirOrder) {
+  for (const std::string& isa : isa_levels()) {
+    const IsaScope scope(isa);
+    for (const int threads : {1, 3, 8}) {
+      for (const bool constant_color : {false, true}) {
+        SCOPED_TRACE(isa + ", " + std::to_string(threads) + " threads");
+        DrawState state = plain_state(128, 128);
+        expect_many(state, constant_color, threads);
+        state.raster.flat_shading = true;
+        expect_many(state, constant_color, threads);
+        state.depth.test = true;
+        expect_many(state, constant_color, threads);
+        state.raster.flat_shading = false;
+        expect_many(state, constant_color, threads);
       }
     }
   }

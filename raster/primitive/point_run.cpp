@@ -1,0 +1,18 @@
+#include "raster/primitive/point_run.h"
+
+#include "raster/fragment/program.h"
+
+namespace halfspace::raster {
+
+bool points_wait(const DrawRecord& draw) {
+  const VertexLayout& layout = draw.vertices.layout;
+  return draw.program->packs && layout.tex_coord < 0 && layout.fog < 0 && !draw.shape.smooth_points &&
+         draw.shape.point_size == 1 && draw.state->accuracy.interpolation != Level::exact;
+}
+
+bool points_run(const DrawRecord& draw, Primitive mode) {
+  return mode == Primitive::points && !draw.shape.general && points_wait(draw) &&
+         !draw.state->raster.flat_shading && draw.vertices.layout.back_color < 0;
+}
+
+}  // namespace halfspace::raster
