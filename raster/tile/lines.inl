@@ -1,7 +1,14 @@
 // Lines of one pixel's width: which pixels they make fragments at, a vector of columns at a time, exactly as
 // raster/tile/cover_line.cpp has it pixel by pixel. Compiled once per ISA level.
 
-using LineInts = hn::Vec<DDi>;
+using LineInts = hn::Vec<DDi>;  // a line a lane
+
+// A pixel a lane.
+using DLf = hn::CappedTag<float, 16>;
+using DLi = hn::RebindToSigned<DLf>;
+using PixelInts = hn::Vec<DLi>;
+inline constexpr int kPixelLanes = static_cast<int>(hn::MaxLanes(DLi()));
+inline constexpr int kPixelParts = kPixelLanes / kDoubleLanes;
 
 // A batch's lines as SetUp has them, but for what only triangles need: no order to be found, no edges, no
 // box. The third corner, at right angles (FindCorners), is made in registers.
@@ -123,26 +130,31 @@ struct LineWalk {
     hn::Store(hn::Neg(hn::PromoteTo(d, falls)), d, between_down + i);
   }
 
-  // The rows of columns [column, column + kQueueLanes). A quotient that is no integer is further from the
+  // The rows of columns [column, column + kPixelLanes). A quotient that is no integer is further from the
   // next than it is rounded by: rows are below 2^18, pitch below 2^33.
-  HWY_INLINE hn::Vec<DIq> Rows(int lane, int column) const {
+  HWY_INLINE PixelInts Rows(int lane, int column) const {
     const DD d;
     const VD height = hn::Set(d, pitch[lane]);
-    QueuedDoubles rows;
-    for (int p = 0; p < kQueueParts; ++p) {
+    LineInts rows[kPixelParts];
+    for (int p = 0; p < kPixelParts; ++p) {
       const VD index =
           hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(column - first[lane] + p * kDoubleLanes)));
       const VD place = hn::Add(hn::Set(d, start[lane]), hn::Mul(hn::Set(d, step[lane]), index));
       const VD row = hn::Floor(hn::Div(place, height));
       const auto between = hn::Eq(hn::Mul(row, height), place);
-      rows.part[p] = hn::Sub(row, hn::IfThenElseZero(between, hn::Set(d, between_down[lane])));
+      rows[p] =
+          hn::DemoteTo(DDi(), hn::Sub(row, hn::IfThenElseZero(between, hn::Set(d, between_down[lane]))));
     }
-    return DemoteQueued(DIq(), rows);
+#if HWY_TARGET == HWY_SCALAR
+    return rows[0];
+#else
+    return hn::Combine(DLi(), rows[1], rows[0]);
+#endif
   }
 
   // Whether the segment reaches into the pixels' diamonds, and leaves them.
-  HWY_INLINE hn::Mask<DIq> MakesFragments(int lane, hn::Vec<DIq> x, hn::Vec<DIq> y) const {
-    const DIq d;
+  HWY_INLINE hn::Mask<DLi> MakesFragments(int lane, PixelInts x, PixelInts y) const {
+    const DLi d;
     const auto to_x = hn::Sub(hn::Set(d, x0[lane] - kHalf), hn::ShiftLeft<kSubpixelBits>(x));
     const auto to_y = hn::Sub(hn::Set(d, y0[lane] - kHalf), hn::ShiftLeft<kSubpixelBits>(y));
     const auto a = hn::Add(to_x, to_y), b = hn::Sub(to_x, to_y);
@@ -158,15 +170,16 @@ struct LineWalk {
     const DDi d;
     return hn::Sub(hn::ShiftRight<kSubpixelBits>(hn::Add(u, hn::Set(d, kSubpixelScale - 1))), hn::Set(d, 1));
   }
-  static HWY_INLINE hn::Mask<DIq> Within(hn::Vec<DIq> v, int32_t least, int32_t most) {
-    const DIq d;
+  static HWY_INLINE hn::Mask<DLi> Within(PixelInts v, int32_t least, int32_t most) {
+    const DLi d;
     return hn::And(hn::Gt(v, hn::Set(d, -kHalf - most)), hn::Lt(v, hn::Set(d, kHalf + 1 - least)));
   }
 };
 
 // Neighbouring fragments of a line, at most a vector of them.
 struct alignas(64) LinePiece {
-  int32_t x[8], y[8];  // behind the last: what a register held
+  static constexpr int kMost = 16;
+  int32_t x[kMost], y[kMost];  // behind the last: what a register held
   int lane, count;
 };
 
@@ -174,7 +187,7 @@ struct alignas(64) LinePiece {
 // how many fragments there are decides where the queue is full, and the processor must not wait with its
 // guess for the division.
 struct LinePieces {
-  static constexpr int kMost = kSetupLanes * (kTileSize / kQueueLanes);
+  static constexpr int kMost = kSetupLanes * (kTileSize / kPixelLanes);
   LinePiece piece[kMost];
   int count = 0;
 
@@ -186,22 +199,29 @@ struct LinePieces {
   }
 
  private:
+  static HWY_INLINE PixelInts ToTheFront(PixelInts v, hn::Mask<DLi> live) {
+#if HWY_TARGET == HWY_AVX2
+    return Squeeze(live)(v);
+#else
+    return hn::Compress(v, live);
+#endif
+  }
+
   HWY_INLINE void Add(const LineWalk& walk, int lane, const Rect& limit) {
-    const DIq d;
+    const DLi d;
     const bool is_steep = walk.steep[lane] != 0;
     const auto steep = hn::MaskFromVec(hn::Set(d, walk.steep[lane]));
     const auto low = hn::Set(d, is_steep ? limit.x0 : limit.y0),
                high = hn::Set(d, is_steep ? limit.x1 : limit.y1);
     const auto end = hn::Set(d, walk.last[lane] + 1);
-    for (int column = walk.first[lane]; column <= walk.last[lane]; column += kQueueLanes) {
+    for (int column = walk.first[lane]; column <= walk.last[lane]; column += kPixelLanes) {
       const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, column)), v = walk.Rows(lane, column);
       const auto x = hn::IfThenElse(steep, v, u), y = hn::IfThenElse(steep, u, v);
       const auto inside = hn::And(hn::Lt(u, end), hn::AndNot(hn::Lt(v, low), hn::Lt(v, high)));
       const auto live = hn::And(inside, walk.MakesFragments(lane, x, y));
       LinePiece& to = piece[count];
-      const Squeeze squeeze(live);
-      hn::Store(squeeze(x), d, to.x);
-      hn::Store(squeeze(y), d, to.y);
+      hn::Store(ToTheFront(x, live), d, to.x);
+      hn::Store(ToTheFront(y, live), d, to.y);
       to.lane = lane;
       to.count = static_cast<int>(hn::CountTrue(d, live));
       count += to.count > 0 ? 1 : 0;
@@ -209,23 +229,57 @@ struct LinePieces {
   }
 };
 
-void PackPiece(TileContext& t, const LinePiece& piece) {
+// Blocks of the rectangle with these pixels at opposite corners: among them those of a line from one to the
+// other.
+HWY_INLINE uint64_t RectBlocks(int x0, int y0, int x1, int y1) {
+  const int left = (x0 < x1 ? x0 : x1) / kBlockSize, right = (x0 < x1 ? x1 : x0) / kBlockSize;
+  const int low = (y0 < y1 ? y0 : y1) / kBlockSize, high = (y0 < y1 ? y1 : y0) / kBlockSize;
+  const uint64_t columns = (uint64_t{2} << right) - (uint64_t{1} << left);
+  const uint64_t rows = (0x0101010101010101 >> (8 * (7 - high + low))) << (8 * low);
+  return columns * rows;
+}
+
+// With a depth test, a vector of the queue's length at a time; its lanes beyond the last stand for the first.
+HWY_NOINLINE void TestAndPackPiece(TileContext& t, const LinePiece& piece, uint32_t* depth) {
   const DIq d;
+  for (int i = 0; i < piece.count; i += kQueueLanes) {
+    const auto taken = hn::Lt(hn::Iota(d, 0), hn::Set(d, piece.count - i));
+    const auto x = hn::IfThenElse(taken, hn::Load(d, piece.x + i), hn::Set(d, piece.x[i]));
+    const auto y = hn::IfThenElse(taken, hn::Load(d, piece.y + i), hn::Set(d, piece.y[i]));
+    t.packer.AppendGroup(t.setup, piece.lane, x, y, piece.count - i, *t.program, t.plane_count, depth);
+  }
+}
+
+void PackPiece(TileContext& t, const LinePiece& piece) {
   const SetupBatch& s = t.setup;
-  const int last = piece.count - 1;
-  // With the first and the last of them all their blocks are found.
-  uint32_t* depth = PreparePacking(t, s.variant[piece.lane], piece.count,
-                                   WindowBlocks(piece.x[0], piece.y[0], piece.x[last], piece.y[last]));
-  const auto taken = hn::Lt(hn::Iota(d, 0), hn::Set(d, piece.count));
-  const auto x = hn::IfThenElse(taken, hn::Load(d, piece.x), hn::Set(d, piece.x[0]));
-  const auto y = hn::IfThenElse(taken, hn::Load(d, piece.y), hn::Set(d, piece.y[0]));
-  const int before = t.packer.queue.count;
-  t.packer.AppendGroup(s, piece.lane, x, y, piece.count, *t.program, t.plane_count, depth);
-  // Every other pixel is in the cache line of its neighbour. Behind the last stands the first again.
-  const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
-  if (depth == nullptr)
-    for (int i = 0; i < kQueueLanes; i += 2) __builtin_prefetch(color + t.packer.queue.offset[before + i], 1);
-  if (t.flat_color) t.packer.SetFlatColor(s, piece.lane, t.program->params.color_plane, before);
+  PixelQueue& queue = t.packer.queue;
+  const int lane = piece.lane, last = piece.count - 1;
+  const unsigned variant = s.variant[lane];
+  uint32_t* depth = PreparePacking(t, variant, piece.count,
+                                   RectBlocks(piece.x[0], piece.y[0], piece.x[last], piece.y[last]));
+  const int before = queue.count;
+  if (depth != nullptr) {
+    TestAndPackPiece(t, piece, depth);
+  } else {
+    const DLi d;
+    const DLf f;
+    const auto x = hn::Load(d, piece.x), y = hn::Load(d, piece.y);
+    const auto dx = hn::Add(hn::ConvertTo(f, x), hn::Set(f, static_cast<float>(s.anchor_x[lane])));
+    const auto dy = hn::Add(hn::ConvertTo(f, y), hn::Set(f, static_cast<float>(s.anchor_y[lane])));
+    for (int p = (variant & kAffine) != 0 ? 2 : 1; p < t.plane_count; ++p) {
+      const auto row = hn::Add(hn::Set(f, s.f0_f[p][lane]), hn::Mul(hn::Set(f, s.dfdy_f[p][lane]), dy));
+      hn::StoreU(hn::Add(row, hn::Mul(hn::Set(f, s.dfdx_f[p][lane]), dx)), f, queue.plane[p] + before);
+    }
+    const auto high = hn::Set(d, 56), low = hn::Set(d, 7);
+    const auto block = hn::Add(hn::ShiftLeft<6>(hn::And(y, high)), hn::ShiftLeft<3>(hn::And(x, high)));
+    const auto offset = hn::Add(block, hn::Add(hn::ShiftLeft<3>(hn::And(y, low)), hn::And(x, low)));
+    hn::StoreU(offset, d, queue.offset + before);
+    queue.count = before + piece.count;
+    // Every other pixel is in the cache line of its neighbour.
+    const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
+    for (int i = 0; i < kPixelLanes; i += 2) __builtin_prefetch(color + queue.offset[before + i], 1);
+  }
+  if (t.flat_color) t.packer.SetFlatColor(s, lane, t.program->params.color_plane, before);
 }
 
 // Whether the batch is of lines that go one after the other through the queue of waiting fragments.
