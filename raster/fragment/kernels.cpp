@@ -193,6 +193,8 @@ void RunStages(BlockContext& c) {
 template <class Body>
 concept RunsInTiles = requires { Body::kInTiles; } && Body::kInTiles;
 template <class Body>
+concept RunsInGroups = RunsInTiles<Body> || requires { Body::kInGroups; };
+template <class Body>
 concept TakesAlpha = requires { Body::kTakesAlpha; } && Body::kTakesAlpha;
 
 HWY_INLINE bool AlphaIsLevel(const BlockContext& c) {
@@ -282,7 +284,7 @@ constexpr Entry MakeEntry() {
   constexpr bool kStoresDepth = sizeof...(ids) == 1 && ((ids == StageId::depth_always) || ...);
   if constexpr (kInTiles && (kStores || kStoresDepth) && TakenSlots<ids...>() == 0)
     entry.kernels.tile = &RunTileBlocks<ids...>;
-  if constexpr (kInTiles && GoesByGroups<ids...>()) entry.kernels.groups = &RunTileGroups<ids...>;
+  if constexpr ((RunsInGroups<typename BodyOf<ids>::Type> && ...) && GoesByGroups<ids...>()) entry.kernels.groups = &RunTileGroups<ids...>;
   if constexpr (sizeof...(ids) == 1) {
     entry.kernels.given_depth = entry.kernels.block;
     if constexpr ((TakesDepth<typename BodyOf<ids>::Type> && ...))

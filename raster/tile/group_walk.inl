@@ -138,6 +138,7 @@ HWY_INLINE void RunGroups(TileContext& t, int lane, const GroupList& list, uint6
   if ((t.packer.blocks & blocks) != 0) FlushPacked(t);
   PrepareWindow(t, blocks);
   t.statistics->fragments += list.fragments;
+  if ((t.setup.variant[lane] & kDouble) != 0) t.statistics->double_fragments += list.fragments;
   BlockContext& c = t.block;
   c.lane = lane;
   c.groups = list.groups;
