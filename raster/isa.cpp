@@ -31,7 +31,8 @@ constexpr IsaLevel kLevels[] = {
 #endif
 };
 
-// What Highway's targets of these names are compiled to use.
+// What Highway's targets of these names are compiled to use; and avx512cd, which all that have the others have, too
+// (pixel_batch.inl).
 bool cpu_has(Isa isa) {
 #if defined(__x86_64__)
   __builtin_cpu_init();
@@ -40,7 +41,8 @@ bool cpu_has(Isa isa) {
   const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") &&
                     __builtin_cpu_supports("bmi") && __builtin_cpu_supports("fma");
   const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                      __builtin_cpu_supports("avx512cd");
   switch (isa) {
     case Isa::scalar: return true;
     case Isa::sse4: return sse4;

@@ -102,7 +102,8 @@ HWY_INLINE QueuedDoubles PromoteQueued(V v) {
   }
 }
 
-HWY_INLINE hn::Mask<DIq> PassesDepth(CompareFunc func, hn::Vec<DIq> z, hn::Vec<DIq> old) {
+template <class V>
+HWY_INLINE hn::Mask<hn::DFromV<V>> PassesDepth(CompareFunc func, V z, V old) {
   switch (func) {
     case CompareFunc::never: return hn::Ne(z, z);
     case CompareFunc::less: return hn::Lt(z, old);
@@ -116,7 +117,7 @@ HWY_INLINE hn::Mask<DIq> PassesDepth(CompareFunc func, hn::Vec<DIq> z, hn::Vec<D
   return hn::Eq(z, z);
 }
 
-HWY_INLINE bool PassesDepth(CompareFunc func, int32_t z, int32_t old) {
+HWY_INLINE bool PassesDepthAt(CompareFunc func, int32_t z, int32_t old) {
   switch (func) {
     case CompareFunc::never: return false;
     case CompareFunc::less: return z < old;
@@ -201,7 +202,7 @@ struct Packer {
  private:
   static HWY_INLINE bool TestPoint(int32_t value, const DepthState& test, uint32_t& memory) {
     const auto old = static_cast<int32_t>(memory);
-    if (!PassesDepth(test.func, value, old)) return false;
+    if (!PassesDepthAt(test.func, value, old)) return false;
     if (test.write) memory = static_cast<uint32_t>(value);
     return true;
   }
@@ -239,4 +240,15 @@ struct Packer {
     }
     return pass;
   }
+};
+
+// Pixels of small triangles of one batch, until they are tested and packed (pixel_batch.inl).
+inline constexpr int kListLanes = 16;
+
+struct ListedPixels {
+  // Column in bits 0 to 5, row in bits 6 to 11, lane of the batch in bits 12 to 14.
+  alignas(64) uint32_t codes[kSetupLanes * kBlockPixels + kListLanes];
+  int count = 0;
+  unsigned variant = 0;  // of all their triangles
+  uint64_t blocks = 0;   // they may lie in
 };

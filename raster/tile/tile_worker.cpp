@@ -50,6 +50,7 @@ struct TileContext {
   bool input_is_clear;
   Packer packer;
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
+  ListedPixels listed;
   TileGroup groups[kTilePixels / kBlockSize + 1];  // what a triangle covers, and room for an empty one
 };
 
@@ -247,6 +248,7 @@ void TakeWholeBlocks(TileContext& t, int lane, uint64_t covered, const BlockProg
 }
 
 #include "raster/tile/group_walk.inl"
+#include "raster/tile/pixel_batch.inl"
 
 void WalkTriangle(TileContext& t, int lane, bool packs) {
   if (TileHides(t, lane)) return;
@@ -283,8 +285,13 @@ void RunTriangle(TileContext& t, int lane) {
   const int width = s.max_x[lane] - s.min_x[lane] + 1, height = s.max_y[lane] - s.min_y[lane] + 1;
   if (width <= 0 || height <= 0) return;
   const bool packs = Packs(t, lane);
-  if (packs && width <= kWindow && height <= kWindow) PackTriangle(t, lane);
-  else WalkTriangle(t, lane, packs);
+  if (packs && width <= kWindow && height <= kWindow) {
+    if (t.block.meter == nullptr) ListTriangle(t, lane);
+    else PackTriangle(t, lane);
+    return;
+  }
+  FinishListed(t);
+  WalkTriangle(t, lane, packs);
 }
 
 #include "raster/tile/lines.inl"
@@ -349,9 +356,14 @@ void RunSegment(TileContext& t, const Segment& segment) {
                       total - next < kSetupLanes ? total - next : kSetupLanes);
       for (int lane = drawn; lane < count; ++lane) {
         const PrimitiveRef& ref = segment.primitives.data()[ids[at + static_cast<size_t>(lane)]];
-        if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
-        else RunShape(t, ref, segment, record, lane);
+        if (ref.kind == PrimitiveKind::triangle) {
+          RunTriangle(t, lane);
+        } else {
+          FinishListed(t);
+          RunShape(t, ref, segment, record, lane);
+        }
       }
+      FinishListed(t);
       at = next;
     }
   }
