@@ -113,9 +113,14 @@ void clear_tile_depth(const TileClear& at, uint32_t value) {
     uint32_t* pixels = at.fb.depth_tile(at.tile);
     at.visit_pixels(false, [&](int block, int i) { pixels[block * kBlockPixels + i] = value; });
   }
-  for (int block = 0; block < kTileBlocks; ++block) {
-    if ((cut.whole >> block & 1) != 0) state.depth_max[block] = state.depth_min[block] = value;
-    else if ((cut.partial >> block & 1) != 0) state.depth_max[block] = std::max(state.depth_max[block], value);
+  if (cut.whole == ~uint64_t{0}) {
+    std::fill_n(state.depth_max, kTileBlocks, value);
+    std::fill_n(state.depth_min, kTileBlocks, value);
+  } else {
+    for (int block = 0; block < kTileBlocks; ++block) {
+      if ((cut.whole >> block & 1) != 0) state.depth_max[block] = state.depth_min[block] = value;
+      else if ((cut.partial >> block & 1) != 0) state.depth_max[block] = std::max(state.depth_max[block], value);
+    }
   }
   state.depth_min_holds = (state.depth_min_holds & ~cut.partial) | cut.whole;
   if (cut.whole == 0) return;
@@ -186,7 +191,8 @@ void clear(Framebuffer::Impl& fb, const ClearCommand& command) {
   for (int ty = rect.y0 / kTileSize; ty * kTileSize < rect.y1; ++ty) {
     for (int tx = rect.x0 / kTileSize; tx * kTileSize < rect.x1; ++tx) {
       const size_t tile = static_cast<size_t>(ty) * static_cast<size_t>(fb.tiles_x) + static_cast<size_t>(tx);
-      const Rect bounds = fb.tile_rect(tile);
+      const int x = tx * kTileSize, y = ty * kTileSize;
+      const Rect bounds{x, y, std::min(x + kTileSize, fb.width), std::min(y + kTileSize, fb.height)};
       TileCut cut;
       if (intersect(bounds, rect) == bounds) cut.whole = ~uint64_t{0};
       else cut = cut_tile(rect, bounds);
