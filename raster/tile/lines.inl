@@ -235,7 +235,7 @@ HWY_INLINE uint64_t RectBlocks(int x0, int y0, int x1, int y1) {
   const int left = (x0 < x1 ? x0 : x1) / kBlockSize, right = (x0 < x1 ? x1 : x0) / kBlockSize;
   const int low = (y0 < y1 ? y0 : y1) / kBlockSize, high = (y0 < y1 ? y1 : y0) / kBlockSize;
   const uint64_t columns = (uint64_t{2} << right) - (uint64_t{1} << left);
-  const uint64_t rows = (0x0101010101010101 >> (8 * (7 - high + low))) << (8 * low);
+  const uint64_t rows = (uint64_t{0x0101010101010101} >> (8 * (7 - high + low))) << (8 * low);
   return columns * rows;
 }
 
