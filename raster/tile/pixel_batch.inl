@@ -139,34 +139,143 @@ HWY_NOINLINE void PackAllListed(TileContext& t) {
   list.count = 0;
   list.blocks = 0;
 }
-HWY_INLINE void FinishListed(TileContext& t) {
-  if (t.listed.count != 0) PackAllListed(t);
+// What is the same for the pixels of a triangle, of eight triangles at once.
+struct ListedWindows {
+  alignas(64) int32_t edge[3][kSetupLanes];  // at the window's first pixel
+  alignas(32) int32_t code[kSetupLanes];     // of that pixel
+  alignas(64) uint64_t box[kSetupLanes];     // pixels of the window to look at
+  uint64_t blocks;                           // of all
+
+  // A window is `kSide` pixels wide and high, 8 or 4.
+  template <int kSide>
+  HWY_INLINE void Make(const SetupBatch& s, __m256i width, __m256i height, __mmask8 lanes) {
+    const __m256i x = _mm256_load_si256(reinterpret_cast<const __m256i*>(s.min_x));
+    const __m256i y = _mm256_load_si256(reinterpret_cast<const __m256i*>(s.min_y));
+    const auto load = [](const int32_t* from)
+                          HWY_ATTR { return _mm256_load_si256(reinterpret_cast<const __m256i*>(from)); };
+    for (int k = 0; k < 3; ++k) {
+      const __m256i moved = _mm256_add_epi32(_mm256_mullo_epi32(load(s.step_x[k]), x),
+                                             _mm256_mullo_epi32(load(s.step_y[k]), y));
+      _mm256_store_si256(reinterpret_cast<__m256i*>(edge[k]), _mm256_add_epi32(load(s.edge[k]), moved));
+    }
+    const __m256i lane = _mm256_setr_epi32(0, 1 << 12, 2 << 12, 3 << 12, 4 << 12, 5 << 12, 6 << 12, 7 << 12);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(code),
+                       _mm256_or_si256(lane, _mm256_or_si256(_mm256_slli_epi32(y, 6), x)));
+    MakeBoxes<kSide>(width, height);
+    MakeBlocks(x, y, _mm256_add_epi32(x, width), _mm256_add_epi32(y, height), lanes);
+  }
+
+ private:
+  template <int kSide>
+  HWY_INLINE void MakeBoxes(__m256i width, __m256i height) {
+    const __m512i w = _mm512_cvtepi32_epi64(width), h = _mm512_cvtepi32_epi64(height);
+    const __m512i row = _mm512_sub_epi64(_mm512_sllv_epi64(_mm512_set1_epi64(2), w), _mm512_set1_epi64(1));
+    const __m512i columns = _mm512_mullo_epi32(row, _mm512_set1_epi32(kSide == 8 ? 0x01010101 : 0x1111));
+    const __m512i all = kSide == 8 ? _mm512_or_si512(columns, _mm512_slli_epi64(columns, 32)) : columns;
+    const __m512i beyond =
+        _mm512_sllv_epi64(_mm512_set1_epi64(-1 << kSide), _mm512_slli_epi64(h, kSide == 8 ? 3 : 2));
+    _mm512_store_si512(box, _mm512_andnot_si512(beyond, all));
+  }
+
+  // As WindowBlocks.
+  HWY_INLINE void MakeBlocks(__m256i x0, __m256i y0, __m256i x1, __m256i y1, __mmask8 lanes) {
+    const __m256i one = _mm256_set1_epi32(1), high = _mm256_set1_epi32(~7);
+    const __m512i columns = _mm512_cvtepu32_epi64(_mm256_or_si256(
+        _mm256_sllv_epi32(one, _mm256_srai_epi32(x0, 3)), _mm256_sllv_epi32(one, _mm256_srai_epi32(x1, 3))));
+    const __m512i lower = _mm512_sllv_epi64(columns, _mm512_cvtepi32_epi64(_mm256_and_si256(y0, high)));
+    const __m512i upper = _mm512_sllv_epi64(columns, _mm512_cvtepi32_epi64(_mm256_and_si256(y1, high)));
+    blocks = static_cast<uint64_t>(_mm512_mask_reduce_or_epi64(lanes, _mm512_or_si512(lower, upper)));
+  }
+};
+
+template <int kSide>
+HWY_INLINE void ListLane(const SetupBatch& s, const ListedWindows& windows, int lane, ListedPixels& list) {
+  constexpr int kRows = kListLanes / kSide;  // a vector's
+  const __m512i index = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m512i column = _mm512_and_si512(index, _mm512_set1_epi32(kSide - 1));
+  const __m512i row = _mm512_srli_epi32(index, kSide == 8 ? 3 : 2);
+  __m512i e[3], step[3];
+  for (int k = 0; k < 3; ++k) {
+    const __m512i up = _mm512_set1_epi32(s.step_y[k][lane]);
+    e[k] = _mm512_add_epi32(_mm512_mullo_epi32(column, _mm512_set1_epi32(s.step_x[k][lane])),
+                            _mm512_mullo_epi32(row, up));
+    e[k] = _mm512_add_epi32(e[k], _mm512_set1_epi32(windows.edge[k][lane]));
+    step[k] = _mm512_slli_epi32(up, 1);
+  }
+  __m512i codes = _mm512_add_epi32(_mm512_or_si512(column, _mm512_slli_epi32(row, 6)),
+                                   _mm512_set1_epi32(windows.code[lane]));
+  const uint64_t box = windows.box[lane];
+  int count = list.count;
+  for (int i = 0; i < kSide * kSide; i += kListLanes) {
+    const __m512i outside = _mm512_or_si512(_mm512_or_si512(e[0], e[1]), e[2]);
+    const auto inside = static_cast<__mmask16>(
+        _mm512_mask_cmpge_epi32_mask(static_cast<__mmask16>(box >> i), outside, _mm512_setzero_si512()));
+    _mm512_storeu_si512(list.codes + count, _mm512_maskz_compress_epi32(inside, codes));
+    count += __builtin_popcount(inside);
+    codes = _mm512_add_epi32(codes, _mm512_set1_epi32(kRows << 6));
+    for (int k = 0; k < 3; ++k) e[k] = _mm512_add_epi32(e[k], step[k]);
+  }
+  list.count = count;
 }
 
-// A triangle of a window's size.
-HWY_INLINE void ListTriangle(TileContext& t, int lane) {
+struct WindowSizes {
+  __m256i width, height;  // of the pixels to look at, less one
+  HWY_INLINE explicit WindowSizes(const SetupBatch& s)
+      : width(Side(s.min_x, s.max_x)), height(Side(s.min_y, s.max_y)) {}
+  HWY_INLINE __mmask8 Empty() const {
+    return _mm256_cmplt_epi32_mask(_mm256_min_epi32(width, height), _mm256_setzero_si256());
+  }
+  HWY_INLINE __mmask8 Below(int size) const {
+    return _mm256_cmplt_epi32_mask(_mm256_max_epi32(width, height), _mm256_set1_epi32(size));
+  }
+
+ private:
+  static HWY_INLINE __m256i Side(const int32_t* least, const int32_t* most) {
+    return _mm256_sub_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(most)),
+                            _mm256_load_si256(reinterpret_cast<const __m256i*>(least)));
+  }
+};
+
+// Of the first `count` triangles of the batch, those of one variant that may be listed, and those without
+// pixels.
+HWY_INLINE unsigned ListableTriangles(const TileContext& t, int count) {
   const SetupBatch& s = t.setup;
+  if (!t.program->packs || t.notes != nullptr || t.block.meter != nullptr) return 0;
+  const WindowSizes sizes(s);
+  const unsigned all = (1u << count) - 1, empty = sizes.Empty() & all,
+                 small = sizes.Below(kWindow) & all & ~empty;
+  if (small == 0) return empty;
+  uint64_t variants;
+  memcpy(&variants, s.variant, sizeof variants);
+  const uint8_t variant = s.variant[__builtin_ctz(small)];
+  if ((variant & kDouble) != 0) return empty;
+  const __m128i same = _mm_cmpeq_epi8(_mm_cvtsi64_si128(static_cast<long long>(variants)),
+                                      _mm_set1_epi8(static_cast<char>(variant)));
+  return empty | (small & static_cast<unsigned>(_mm_movemask_epi8(same)));
+}
+
+// Draws these triangles of the batch, which follow each other.
+HWY_INLINE void ListTriangles(TileContext& t, unsigned which) {
+  const SetupBatch& s = t.setup;
+  const WindowSizes sizes(s);
+  const auto lanes = static_cast<__mmask8>(which & ~unsigned{sizes.Empty()});
+  if (lanes == 0) return;
   ListedPixels& list = t.listed;
-  if (list.variant != s.variant[lane]) {
-    FinishListed(t);
-    list.variant = s.variant[lane];
+  list.variant = s.variant[__builtin_ctz(lanes)];
+  ListedWindows windows;
+  if ((lanes & ~unsigned{sizes.Below(4)}) == 0) {
+    windows.Make<4>(s, sizes.width, sizes.height, lanes);
+    for (unsigned todo = lanes; todo != 0; todo &= todo - 1)
+      ListLane<4>(s, windows, __builtin_ctz(todo), list);
+  } else {
+    windows.Make<8>(s, sizes.width, sizes.height, lanes);
+    for (unsigned todo = lanes; todo != 0; todo &= todo - 1)
+      ListLane<8>(s, windows, __builtin_ctz(todo), list);
   }
-  const int x = s.min_x[lane], y = s.min_y[lane], width = s.max_x[lane] - x + 1,
-            height = s.max_y[lane] - y + 1;
-  uint64_t mask = GroupWalk(s, lane).Pixels(x, y);
-  mask &= (0x0101010101010101u * ((1u << width) - 1)) & (~uint64_t{0} >> (64 - 8 * height));
-  if (mask == 0) return;
-  list.blocks |= WindowBlocks(x, y, s.max_x[lane], s.max_y[lane]);
-  const __m512i pattern = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 64, 65, 66, 67, 68, 69, 70, 71);
-  __m512i codes = _mm512_add_epi32(pattern, _mm512_set1_epi32(lane << 12 | y << 6 | x));
-  for (int i = 0; i < kBlockPixels; i += kListLanes) {
-    const auto group = static_cast<__mmask16>(mask >> i);
-    _mm512_storeu_si512(list.codes + list.count, _mm512_maskz_compress_epi32(group, codes));
-    list.count += __builtin_popcount(group);
-    codes = _mm512_add_epi32(codes, _mm512_set1_epi32(2 << 6));
-  }
+  list.blocks = windows.blocks;
+  if (list.count != 0) PackAllListed(t);
 }
 #else
-HWY_INLINE void FinishListed(TileContext&) {}
-HWY_INLINE void ListTriangle(TileContext& t, int lane) { PackTriangle(t, lane); }
+HWY_INLINE unsigned ListableTriangles(const TileContext&, int) { return 0; }
+HWY_INLINE void ListTriangles(TileContext&, unsigned) {}
 #endif

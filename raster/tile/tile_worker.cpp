@@ -285,13 +285,8 @@ void RunTriangle(TileContext& t, int lane) {
   const int width = s.max_x[lane] - s.min_x[lane] + 1, height = s.max_y[lane] - s.min_y[lane] + 1;
   if (width <= 0 || height <= 0) return;
   const bool packs = Packs(t, lane);
-  if (packs && width <= kWindow && height <= kWindow) {
-    if (t.block.meter == nullptr) ListTriangle(t, lane);
-    else PackTriangle(t, lane);
-    return;
-  }
-  FinishListed(t);
-  WalkTriangle(t, lane, packs);
+  if (packs && width <= kWindow && height <= kWindow) PackTriangle(t, lane);
+  else WalkTriangle(t, lane, packs);
 }
 
 #include "raster/tile/lines.inl"
@@ -315,6 +310,12 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   t.flat_color = draw.vertices.layout.color >= 0 && draw.state->raster.flat_shading;
   t.projective = draw.vertices.layout.projective;
   t.packs_points = t.notes == nullptr && points_wait(draw);
+}
+
+HWY_INLINE bool AreTriangles(const Segment& segment, const uint32_t* ids, int count) {
+  bool all = true;
+  for (int i = 0; i < count; ++i) all = all && segment.primitives.data()[ids[i]].kind == PrimitiveKind::triangle;
+  return all;
 }
 
 void RunSegment(TileContext& t, const Segment& segment) {
@@ -354,16 +355,15 @@ void RunSegment(TileContext& t, const Segment& segment) {
       const size_t next = at + static_cast<size_t>(count);
       PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + next,
                       total - next < kSetupLanes ? total - next : kSetupLanes);
-      for (int lane = drawn; lane < count; ++lane) {
+      const unsigned listable = lines || !AreTriangles(segment, ids + at, count) ? 0 : ListableTriangles(t, count);
+      for (int lane = drawn; lane < count;) {
         const PrimitiveRef& ref = segment.primitives.data()[ids[at + static_cast<size_t>(lane)]];
-        if (ref.kind == PrimitiveKind::triangle) {
-          RunTriangle(t, lane);
-        } else {
-          FinishListed(t);
-          RunShape(t, ref, segment, record, lane);
-        }
+        const int run = __builtin_ctz(~(listable >> lane));
+        if (run != 0) ListTriangles(t, ((1u << run) - 1) << lane);
+        else if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
+        else RunShape(t, ref, segment, record, lane);
+        lane += run != 0 ? run : 1;
       }
-      FinishListed(t);
       at = next;
     }
   }
