@@ -89,6 +89,11 @@ bool needs_lambda(const TextureView& view) {
          view.sampler.mip == MipMode::nearest;
 }
 
+bool has_sizes_of_two(const TextureLevel& level) {
+  const auto is_power = [](int size) { return (size & (size - 1)) == 0; };
+  return is_power(level.width) && is_power(level.height);
+}
+
 void add_level_lookup(const Accuracy& accuracy, bool projective, StageList& list) {
   using enum StageId;
   if (accuracy.lod == Level::exact) list.add(projective ? lambda_projective_exact : lambda_exact);
@@ -103,15 +108,15 @@ void add_lookup(const TextureView& view, const Accuracy& accuracy, bool projecti
   using enum StageId;
   if (needs_lambda(view)) return add_level_lookup(accuracy, projective, list);
   if (accuracy.filter == Level::exact) return list.add(sample_exact);
+  const bool repeat = view.sampler.wrap_s == Wrap::repeat && view.sampler.wrap_t == Wrap::repeat;
   if (view.sampler.mag == Filter::nearest) {
-    list.add(footprint_nearest);
+    list.add(repeat && has_sizes_of_two(*view.levels[0]) ? footprint_nearest_repeat : footprint_nearest);
     return list.add(sample_nearest);
   }
   if (accuracy.filter == Level::draft) {
     list.add(footprint_draft);
     return list.add(sample_linear_draft);
   }
-  const bool repeat = view.sampler.wrap_s == Wrap::repeat && view.sampler.wrap_t == Wrap::repeat;
   list.add(repeat ? footprint_repeat : footprint);
   list.add(sample_linear);
 }

@@ -213,6 +213,38 @@ struct FootprintNearest {
   }
 };
 
+// The same for REPEAT both ways on sizes that are powers of two: what snaps to the far edge, and what is no number, falls
+// under the mask.
+struct FootprintNearestRepeat {
+  static constexpr bool kKills = false, kPacks = true;
+  template <class L>
+  struct Once {
+    VF scale_s, scale_t;  // to 1/1024 texels
+    VI mask_s, mask_t, pitch, first;
+    HWY_INLINE explicit Once(const BlockContext& c) {
+      const LevelRef& level = c.params->levels[0];
+      scale_s = hn::Set(DF(), level.width * 1024.0f);
+      scale_t = hn::Set(DF(), level.height * 1024.0f);
+      mask_s = hn::Set(DI(), level.width_i - 1);
+      mask_t = hn::Set(DI(), level.height_i - 1);
+      pitch = hn::Set(DI(), level.pitch);
+      first = hn::Set(DI(), level.pitch + 1);
+    }
+  };
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int, Lanes& v) {
+    const VF s = hn::Sub(v.slot[kS], hn::Floor(v.slot[kS])), t = hn::Sub(v.slot[kT], hn::Floor(v.slot[kT]));
+    const VI x = Texel(s, once.scale_s, once.mask_s), y = Texel(t, once.scale_t, once.mask_t);
+    v.slot[kOffset] = hn::BitCast(DF(), hn::Add(hn::Mul(y, once.pitch), hn::Add(x, once.first)));
+  }
+
+ private:
+  static HWY_INLINE VI Texel(VF s, VF scale, VI mask) {
+    const VF scaled = hn::Add(hn::Mul(s, scale), hn::Set(DF(), 0.5f));
+    return hn::And(hn::ShiftRight<10>(TruncateInRange(scaled)), mask);
+  }
+};
+
 struct SampleNearest {
   static constexpr bool kKills = false, kPacks = true, kTakesFromMemory = true;
   template <class L>
