@@ -88,13 +88,19 @@ struct TileGroup {
   uint16_t index, live;
 };
 
+// Blocks side by side that a list of kernels takes in turn, each kernel all of them: what it works out ahead serves all.
+inline constexpr int kRowBlocks = kTileSize / kBlockSize;
+// A line of the cache more than a row has: or else slots would share the same few sets.
+inline constexpr int kSlotPixels = kRowBlocks * kBlockPixels + 16;
+
 struct alignas(64) BlockContext {
-  float slot[kSlotCount][kBlockPixels];
+  float slot[kSlotCount][kSlotPixels];
   const FragmentParams* params;
   const SetupBatch* setup;
   int lane;               // of the batch
   double dx, dy;          // centre of the block's lowest-left pixel minus the anchor
   uint64_t blocks;        // whole blocks of a tile; then (dx, dy), colour and depth are the tile's, else the block's
+  uint64_t row_live[kRowBlocks];  // of such a row of whole blocks, what `live` is of one
   uint64_t live;          // bit (y % 8) * 8 + x % 8
   uint32_t* depth;        // the block's 64 pixels
   uint8_t* stencil;       // likewise

@@ -226,6 +226,35 @@ void RunTileBlocks(BlockContext& c) {
   RunBlocks<std::conditional_t<kKills, TileLanes<false>, FullTileLanes<false>>, ids...>(c);
 }
 
+// A part of a list on whole blocks of a row of a tile; slots count from the row's first pixel.
+template <StageId... ids>
+void RunRowBlocks(BlockContext& c) {
+  using L = TileLanes<false>;
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  constexpr int kRowPixels = kRowBlocks * kBlockPixels;
+  const OnceAll<L, ids...> once(c);
+  for (uint64_t todo = c.blocks; todo != 0; todo &= todo - 1) {
+    const int block = __builtin_ctzll(todo), first = block * kBlockPixels;
+    const uint64_t live = c.row_live[block % kRowBlocks];
+    uint64_t left = 0;
+    for (int p = 0; p < kBlockPixels; p += kLanes) {
+      const uint64_t group = live >> p & kGroupBits;
+      if (group == 0) continue;
+      const int i = first + p, slot = i % kRowPixels;
+      Lanes v;
+      v.live = MaskFromBits(group);
+      LoadSlots<TakenSlots<ids...>()>(c, slot, v);
+      (Step<L, ids>(c, once, i, v) && ...);
+      StoreSlots<LeftSlots<ids...>()>(v, slot, c);
+      if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << p;
+    }
+    if constexpr (kKills) {
+      c.row_live[block % kRowBlocks] = left;
+      if (left == 0) c.blocks &= ~(uint64_t{1} << block);
+    }
+  }
+}
+
 // Groups that lose all their lanes leave the list: without a branch, which could not be guessed.
 template <class L, StageId... ids>
 HWY_INLINE void RunListedGroups(BlockContext& c) {
@@ -277,14 +306,16 @@ struct Entry {
 
 template <StageId... ids>
 constexpr Entry MakeEntry() {
-  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>, nullptr, nullptr, nullptr}};
+  Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>}};
   if constexpr ((BodyOf<ids>::Type::kPacks && ...)) entry.kernels.packed = &RunStages<PackedLanes, ids...>;
   constexpr bool kInTiles = (RunsInTiles<typename BodyOf<ids>::Type> && ...);
   constexpr bool kStores = (StoresPixels<typename BodyOf<ids>::Type> || ...);
+  if constexpr (kInTiles) entry.kernels.row = &RunRowBlocks<ids...>;
   constexpr bool kStoresDepth = sizeof...(ids) == 1 && ((ids == StageId::depth_always) || ...);
   if constexpr (kInTiles && (kStores || kStoresDepth) && TakenSlots<ids...>() == 0)
     entry.kernels.tile = &RunTileBlocks<ids...>;
-  if constexpr ((RunsInGroups<typename BodyOf<ids>::Type> && ...) && GoesByGroups<ids...>()) entry.kernels.groups = &RunTileGroups<ids...>;
+  if constexpr ((RunsInGroups<typename BodyOf<ids>::Type> && ...) && TakenSlots<ids...>() == 0 && GoesByGroups<ids...>())
+    entry.kernels.groups = &RunTileGroups<ids...>;
   if constexpr (sizeof...(ids) == 1) {
     entry.kernels.given_depth = entry.kernels.block;
     if constexpr ((TakesDepth<typename BodyOf<ids>::Type> && ...))

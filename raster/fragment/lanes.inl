@@ -184,6 +184,11 @@ struct BlockPlaneDouble {
   }
 };
 
+// Where a stage finds what one before it left for pixel `i`, which counts from the first of the block or of the tile.
+HWY_INLINE const float* SlotAt(const BlockContext& c, Slot slot, int i) {
+  return c.slot[slot] + i % (kRowBlocks * kBlockPixels);
+}
+
 // For stages with nothing to work out once a block.
 struct NothingOnce {
   HWY_INLINE explicit NothingOnce(const BlockContext&) {}

@@ -104,6 +104,12 @@ void add_level_lookup(const Accuracy& accuracy, bool projective, StageList& list
   list.add(accuracy.filter == Level::draft ? sample_levels_draft : sample_levels);
 }
 
+bool is_opaque(const TextureView& view) {
+  bool opaque = true;
+  for (int i = 0; i < view.level_count; ++i) opaque = opaque && view.levels[static_cast<size_t>(i)]->opaque;
+  return opaque;
+}
+
 void add_lookup(const TextureView& view, const Accuracy& accuracy, bool projective, StageList& list) {
   using enum StageId;
   if (needs_lambda(view)) return add_level_lookup(accuracy, projective, list);
@@ -118,13 +124,7 @@ void add_lookup(const TextureView& view, const Accuracy& accuracy, bool projecti
     return list.add(sample_linear_draft);
   }
   list.add(repeat ? footprint_repeat : footprint);
-  list.add(sample_linear);
-}
-
-bool is_opaque(const TextureView& view) {
-  bool opaque = true;
-  for (int i = 0; i < view.level_count; ++i) opaque = opaque && view.levels[static_cast<size_t>(i)]->opaque;
-  return opaque;
+  list.add(is_opaque(view) ? sample_linear_opaque : sample_linear);
 }
 
 // `opaque`: alpha is 1 wherever the texture is looked up, so what multiplies by it or mixes with it need not.
@@ -318,6 +318,18 @@ StageId fog_stage(const DrawState& state, unsigned variant) {
   return kFog[variant];
 }
 
+// Where coordinates have divided by 1/w, fog need not.
+void add_fog(const DrawState& state, unsigned variant, StageList& list) {
+  StageId fog = fog_stage(state, variant);
+  for (StageId& id : list.ids) {
+    if (fog != StageId::fog_perspective) break;
+    if (id != StageId::coord_perspective && id != StageId::coord_perspective_and_w) continue;
+    id = StageId::coord_perspective_and_w;
+    fog = StageId::fog_perspective_at_w;
+  }
+  list.add(fog);
+}
+
 // Rounding holds colours to their range, so that a colour which comes right before it need not do so.
 void add_rounding(StageList& list) {
   if (list.count > 0) {
@@ -347,7 +359,7 @@ StageList list_stages(const DrawState& state, const VertexLayout& layout, ColorF
     else
       add_color(state, layout, variant, list);
   }
-  if (layout.fog >= 0 && (writes_color(state) || alpha_test)) list.add(fog_stage(state, variant));
+  if (layout.fog >= 0 && (writes_color(state) || alpha_test)) add_fog(state, variant, list);
   const bool wide = is_wide(state);
   if (layout.coverage && (writes_color(state) || alpha_test))
     list.add(wide ? StageId::coverage_wide : StageId::coverage);
@@ -387,7 +399,7 @@ bool overwrites(const StageList& list) {
   using enum StageId;
   const auto end = list.ids.begin() + list.count;
   return std::none_of(list.ids.begin(), end, [](StageId id) {
-    return id < color_constant || id == blend_over_rgba8 || id == blend_rgba8 || id == write_rgba8_masked;
+    return id < color_constant || id == alpha_test || id == blend_over_rgba8 || id == blend_rgba8 || id == write_rgba8_masked;
   });
 }
 
@@ -412,7 +424,17 @@ bool take_depth_test(StageList& list) {
 TileCode find_tile_code(const StageList& list) {
   if (list.count < 2) return {};
   const KernelPair kernels = find_kernels(list.ids.data(), list.count);
-  return {kernels.tile, kernels.block, stores_one_value(list), overwrites(list)};
+  TileCode code;
+  code.tile = kernels.tile;
+  code.block = kernels.block;
+  code.fills = stores_one_value(list);
+  code.overwrites = overwrites(list);
+  BlockProgram rows;
+  if (code.tile != nullptr || !cover(list, 0, list.count, true, &KernelPair::row, rows)) return code;
+  if (rows.count > TileCode::kMaxKernels) return code;
+  code.row_count = rows.count;
+  std::copy(rows.kernels.begin(), rows.kernels.begin() + rows.count, code.row.begin());
+  return code;
 }
 
 void find_group_kernels(const CodeKey& key, const StageList& list, BlockProgram& blocks) {
@@ -505,6 +527,7 @@ void build_program(const DrawState& state, const VertexLayout& layout, ColorForm
   program.reads_stencil = stencil;
   program.writes_depth = depth && state.depth.write;
   const bool one_plane = !layout.given_depth;  // fragments lie on it, so that a block's depth can be told beforehand
+  program.accepts_nearer = key.accepts_nearer;
   program.rejects_deeper = depth && lowers && one_plane && !(stencil && marks_hidden(state.stencil));
   program.depth_may_grow = program.writes_depth && !lowers && func != CompareFunc::equal && func != CompareFunc::never;
   program.depth_pass_lowers =

@@ -28,9 +28,14 @@ struct StageList {
   bool operator==(const StageList&) const = default;
 };
 
-// A list of stages as one kernel, for whole blocks of a tile. `tile` is null where there is none.
+// A list of stages for whole blocks of a tile: as one kernel, as several that take a row of the tile's blocks in turn, or
+// not at all.
 struct TileCode {
+  static constexpr int kMaxKernels = 8;
   BlockFunction tile = nullptr;   // on BlockContext::blocks
+  std::array<BlockFunction, kMaxKernels> row{};
+  int row_count = 0;
+  bool exists() const { return tile != nullptr || row_count != 0; }
   BlockFunction block = nullptr;  // the same on one block
   bool fills = false;             // it stores the same pixel value everywhere, whatever was there
   bool overwrites = false;        // what its pixels were before does not matter
@@ -102,6 +107,7 @@ struct PipelineProgram : ProgramCode {
   int plane = 0;  // index of the colour plane drawn to; with `both_planes` the other one is, too
   bool both_planes = false;
   bool rejects_deeper = false;  // depth test is LESS or LEQUAL and runs first: coarse z may drop a block
+  bool accepts_nearer = false;  // and it lets a fragment through that is nearer, whatever else the fragment is
   bool depth_may_grow = false;  // the depth function can store a larger value
   bool depth_pass_lowers = false;  // every pixel of a full block ends at or before the primitive
   bool draws_nothing = false;
@@ -123,6 +129,7 @@ struct KernelPair {
   BlockFunction block = nullptr, packed = nullptr;
   BlockFunction given_depth = nullptr;  // of one stage only: where fragments bring their own depth
   BlockFunction tile = nullptr;         // of a whole list: on whole blocks of a tile
+  BlockFunction row = nullptr;          // on whole blocks of a row of a tile
   BlockFunction groups = nullptr;       // of a depth test, or of a whole list after it: on groups of a tile
 };
 KernelPair find_kernels(const StageId* ids, int count);

@@ -79,9 +79,9 @@ HWY_NOINLINE void RunOnBothPlanes(TileContext& t, const BlockProgram& program, i
   program.run_head(c);
   if (c.live == 0) return;
   alignas(64) float color[4][kBlockPixels];
-  memcpy(color, c.slot[kR], sizeof color);
+  for (int k = 0; k < 4; ++k) memcpy(color[k], c.slot[kR + k], sizeof color[k]);
   program.run_tail(c);
-  memcpy(c.slot[kR], color, sizeof color);
+  for (int k = 0; k < 4; ++k) memcpy(c.slot[kR + k], color[k], sizeof color[k]);
   SelectColor(t, block, 1 - t.program->plane);
   program.run_tail(c);
 }
@@ -255,7 +255,7 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
   t.even = HasEvenColor(t, lane);
   const BlockProgram& stages = t.even ? t.program->even : t.program->variants[t.setup.variant[lane]];
   const bool collects =
-      stages.whole.fills || (t.notes == nullptr && (stages.whole.tile != nullptr || stages.nearer.tile != nullptr));
+      stages.whole.fills || (t.notes == nullptr && (stages.whole.exists() || stages.nearer.exists()));
   if (stages.groups != nullptr && t.notes == nullptr && t.block.meter == nullptr) {
     WalkGroups(t, lane, stages, collects);
     t.even = false;

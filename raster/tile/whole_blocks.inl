@@ -19,6 +19,16 @@ void TakeDepth(TileContext& t, int lane, uint64_t blocks) {
   t.program->stores_depth(t.block);
 }
 
+// A row of the tile's blocks after the other.
+void RunRows(BlockContext& c, uint64_t blocks, const TileCode& code) {
+  constexpr uint64_t kRow = (uint64_t{1} << kRowBlocks) - 1;
+  for (int first = 0; first < kTileBlocks; first += kRowBlocks) {
+    c.blocks = blocks & kRow << first;
+    for (uint64_t& live : c.row_live) live = ~uint64_t{0};
+    for (int i = 0; i < code.row_count && c.blocks != 0; ++i) code.row[static_cast<size_t>(i)](c);
+  }
+}
+
 // The kernel that takes many, on blocks whose depth is settled, or not asked for.
 void RunTileKernel(TileContext& t, int lane, uint64_t blocks, const TileCode& code) {
   const SetupBatch& s = t.setup;
@@ -35,7 +45,23 @@ void RunTileKernel(TileContext& t, int lane, uint64_t blocks, const TileCode& co
   c.color = t.framebuffer->color_tile<uint32_t>(t.tile, plane);
   if (t.program->reads_depth) c.depth = t.framebuffer->depth_tile(t.tile);
   c.blocks = blocks;
-  code.tile(c);
+  if (code.tile != nullptr) code.tile(c);
+  else RunRows(c, blocks, code);
+}
+
+// Where being nearer decides nothing.
+void RunTestedBlocks(TileContext& t, int lane, uint64_t blocks, const BlockProgram& stages) {
+  const SetupBatch& s = t.setup;
+  if (t.program->rejects_deeper) blocks &= ~BlockDepths(s, lane, blocks).Hidden(*t.state);
+  if (blocks == 0) return;
+  if ((t.state->depth_marks() & blocks) != 0) t.framebuffer->settle_depth(t.tile, blocks);
+  RunTileKernel(t, lane, blocks, stages.whole);
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int block = __builtin_ctzll(blocks);
+    t.block.dx = s.anchor_x[lane] + block % 8 * kBlockSize;
+    t.block.dy = s.anchor_y[lane] + block / 8 * kBlockSize;
+    UpdateDepthBounds(t, lane, block, true);
+  }
 }
 
 void RunWholeBlocks(TileContext& t, int lane, uint64_t blocks, const BlockProgram& stages) {
@@ -46,11 +72,12 @@ void RunWholeBlocks(TileContext& t, int lane, uint64_t blocks, const BlockProgra
     return;
   }
   if (!program.reads_depth) return RunTileKernel(t, lane, blocks, stages.whole);
+  if (!program.accepts_nearer) return RunTestedBlocks(t, lane, blocks, stages);
   const BlockDepths depths(s, lane, blocks);
   const CoarseDepth coarse = depths.Compare(*t.state, program.depth.func == CompareFunc::less_equal);
   blocks &= ~coarse.hidden;
   const uint64_t nearer = blocks & coarse.nearer, tested = blocks & ~nearer;
-  if (tested != 0 && stages.whole.tile != nullptr) {
+  if (tested != 0 && stages.whole.exists()) {
     if ((t.state->depth_marks() & tested) != 0) t.framebuffer->settle_depth(t.tile, tested);
     RunTileKernel(t, lane, tested, stages.whole);
   } else {

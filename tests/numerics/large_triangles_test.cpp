@@ -7,6 +7,7 @@
 
 #include "tests/support/canvas.h"
 #include "tests/support/random.h"
+#include "tests/support/textures.h"
 
 namespace halfspace::test {
 namespace {
@@ -65,6 +66,29 @@ DrawState any_state(Random& random) {
   return state;
 }
 
+// Textures and fog in perspective, whose lists of stages go by rows of blocks.
+class TexturedStates {
+ public:
+  explicit TexturedStates(Random& random) {
+    for (TestTexture* texture : {&color_, &transparent_})
+      for (int size = 32; size > 0; size /= 2) texture->add_noise(random, size, size);
+  }
+  DrawState any(Random& random) {
+    DrawState state = any_state(random);
+    Sampler sampler = sampler_of(Filter(random.integer(0, 1)), random.integer(0, 2) != 0 ? Wrap::repeat : Wrap::clamp);
+    if (random.integer(0, 2) == 0) sampler.min = Filter::linear, sampler.mip = MipMode::linear;
+    state.texture.view = (random.integer(0, 1) != 0 ? color_ : transparent_).view(sampler);
+    state.texture.env = EnvMode(random.integer(0, 3));
+    if (random.integer(0, 2) == 0) state.fog = {true, FogMode(random.integer(0, 2)), any_color(random), 0.2f, 1, 6};
+    if (random.integer(0, 4) == 0) state.alpha_test = {true, CompareFunc::greater, 0.4f};
+    if (random.integer(0, 4) == 0) state.accuracy.filter = Level::draft;
+    return state;
+  }
+
+ private:
+  TestTexture color_{BaseFormat::rgb}, transparent_{BaseFormat::rgba};
+};
+
 // One triangle, or a quad as two: far larger than a tile, or small. Level in depth, colour or alpha now and
 // then.
 std::vector<Vertex> any_triangles(Random& random, Primitive& primitive) {
@@ -87,6 +111,7 @@ std::vector<Vertex> any_triangles(Random& random, Primitive& primitive) {
                               y + way[1] * random.integer(reach / 2, reach), kViewport, z,
                               even ? one : any_color(random));
     if (level_alpha) v.color.a = one.a;
+    v.s = static_cast<float>(v.color.r * 9), v.t = static_cast<float>(v.color.g * 5);
     if (perspective) {
       const float w = static_cast<float>(1 << random.integer(0, 3));
       v.x *= w, v.y *= w, v.z *= w, v.w = w;
@@ -108,18 +133,19 @@ void any_clear(Random& random, Canvas& canvas) {
   canvas.device().clear(clear);
 }
 
-// Odd seeds are of simple states.
+// Odd seeds are of simple states, every fourth one's have textures.
 Picture draw_stream(uint64_t seed, int threads, bool fuse) {
   Random random(seed);
   Canvas canvas(kWidth, kHeight, threads, ColorFormat::rgba8, fuse);
   canvas.clear({0.1f, 0.2f, 0.3f, 0.4f}, 1);
+  TexturedStates textured(random);
   for (int i = 0; i < 60; ++i) {
     const auto what = random.integer(0, 19);
     if (what == 0)
       any_clear(random, canvas);
     else if (what == 1)
       canvas.read({5, 7, 90, 100});
-    const DrawState state = seed % 2 != 0 ? simple_state(random) : any_state(random);
+    const DrawState state = seed % 4 == 0 ? textured.any(random) : seed % 2 != 0 ? simple_state(random) : any_state(random);
     Primitive primitive{};
     for (auto n = random.integer(1, 8); n > 0; --n) {
       const std::vector<Vertex> vertices = any_triangles(random, primitive);

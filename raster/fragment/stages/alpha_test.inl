@@ -16,7 +16,7 @@ HWY_INLINE auto Passes(CompareFunc func, V a, V b) {
 }
 
 struct AlphaTest {
-  static constexpr bool kKills = true, kPacks = false;
+  static constexpr bool kKills = true, kPacks = false, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>

@@ -35,7 +35,7 @@ template <unsigned kVariant, bool kAtW = false, bool kOpen = false>
 struct ColorSmooth {
   static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
   static constexpr bool kDivides = (kVariant & kAffine) == 0;
-  static constexpr bool kInTiles = kPacks, kInGroups = true, kTakesAlpha = !kDivides;
+  static constexpr bool kInTiles = true, kTakesAlpha = !kDivides;
 
   struct NoPlane {
     HWY_INLINE NoPlane(const BlockContext&, int) {}

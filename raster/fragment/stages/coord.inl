@@ -2,7 +2,7 @@
 
 template <unsigned kVariant, bool kProjective>
 struct Coord {
-  static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
+  static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0, kInTiles = true;
   static constexpr bool kDivides = (kVariant & kAffine) == 0 || kProjective;
 
   template <class Plane>

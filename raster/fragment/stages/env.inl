@@ -6,7 +6,7 @@ HWY_INLINE VF Mix(VF a, VF b, VF weight) { return hn::Add(a, Scaled(hn::Sub(b, a
 // kRgb, kAlpha: whether the texture's base format has them.
 template <EnvMode kMode, bool kRgb, bool kAlpha>
 struct Env {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
@@ -30,7 +30,7 @@ struct Env {
 
 // GL_BLEND with an intensity texture mixes alpha too.
 struct EnvBlendIntensity {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>

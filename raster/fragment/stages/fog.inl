@@ -53,15 +53,19 @@ HWY_INLINE void MixFog(const FogParams& fog, VF f, Lanes& v) {
   }
 }
 
-// kVariant: bits of Variant.
-template <unsigned kVariant>
+// kVariant: bits of Variant. kAtW: no divide, w is there already.
+template <unsigned kVariant, bool kAtW = false>
 struct Fog {
-  static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
+  static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0, kInTiles = true;
   static constexpr bool kDivides = (kVariant & kAffine) == 0;
 
+  struct NoPlane {
+    HWY_INLINE NoPlane(const BlockContext&, int) {}
+  };
   template <class Plane>
   struct Planes {
-    Plane inv_w, distance;
+    std::conditional_t<kDivides && !kAtW, Plane, NoPlane> inv_w;
+    Plane distance;
     HWY_INLINE explicit Planes(const BlockContext& c) : inv_w(c, 1), distance(c, c.params->fog.plane) {}
   };
   template <class L>
@@ -70,22 +74,25 @@ struct Fog {
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
     const FogParams& fog = c.params->fog;
-    MixFog(fog, FogFactor(fog.curve, Depth(fog, once, i)), v);
+    MixFog(fog, FogFactor(fog.curve, Depth(fog, once, i, v)), v);
   }
 
  private:
   // (distance - origin) * slope.
   template <class Planes>
-  static HWY_INLINE VF Depth(const FogParams& fog, const Planes& once, int i) {
+  static HWY_INLINE VF Depth(const FogParams& fog, const Planes& once, int i, const Lanes& v) {
     if constexpr ((kVariant & kPreciseDivide) != 0) {
       return InDouble(fog, PromoteGroup(once.distance.At(i)), PromoteGroup(once.inv_w.At(i)));
     } else if constexpr (kPacks) {
       const DF d;
       VF distance = once.distance.At(i);
-      if constexpr (kDivides) distance = hn::Mul(distance, hn::Div(hn::Set(d, 1.0f), once.inv_w.At(i)));
+      if constexpr (kAtW) distance = hn::Mul(distance, v.slot[kW]);
+      else if constexpr (kDivides) distance = hn::Mul(distance, hn::Div(hn::Set(d, 1.0f), once.inv_w.At(i)));
       return hn::Mul(hn::Sub(distance, hn::Set(d, fog.origin)), hn::Set(d, fog.slope));
     } else {
-      return InDouble(fog, once.distance.At(i), once.inv_w.At(i));
+      VD inv_w;
+      if constexpr (kDivides) inv_w = once.inv_w.At(i);
+      return InDouble(fog, once.distance.At(i), inv_w);
     }
   }
   static HWY_INLINE VF InDouble(const FogParams& fog, VD distance, const VD& inv_w) {

@@ -79,11 +79,26 @@ HWY_INLINE __m128 LoadTwoPairs(const uint32_t* row, int64_t a, int64_t b) {
 struct FourPairs {
   __m256 low, high;
 };
+#endif
+#if HWY_TARGET == HWY_AVX2
 // Pairs of the lanes j, j + 1, j + 4 and j + 5. Both rows at once, so that an offset is in a register for both.
 HWY_INLINE FourPairs LoadFourPairs(const LaneOffsets& offsets, int j, const uint32_t* low, const uint32_t* high) {
   const int64_t a = offsets[j], b = offsets[j + 1], c = offsets[j + 4], e = offsets[j + 5];
   return {_mm256_insertf128_ps(_mm256_castps128_ps256(LoadTwoPairs(low, a, b)), LoadTwoPairs(low, c, e), 1),
           _mm256_insertf128_ps(_mm256_castps128_ps256(LoadTwoPairs(high, a, b)), LoadTwoPairs(high, c, e), 1)};
+}
+#elif HWY_TARGET == HWY_AVX3
+// The same by broadcasts into places: those leave the units that shuffle alone.
+HWY_INLINE __m256 LoadPlaces(const uint32_t* row, int64_t a, int64_t b, int64_t c, int64_t e) {
+  const auto at = [row](int64_t offset) HWY_ATTR { return reinterpret_cast<const double*>(row + offset); };
+  __m256d v = _mm256_castpd128_pd256(_mm_load_sd(at(a)));
+  v = _mm256_mask_broadcastsd_pd(v, 2, _mm_load_sd(at(b)));
+  v = _mm256_mask_broadcastsd_pd(v, 4, _mm_load_sd(at(c)));
+  return _mm256_castpd_ps(_mm256_mask_broadcastsd_pd(v, 8, _mm_load_sd(at(e))));
+}
+HWY_INLINE FourPairs LoadFourPairs(const LaneOffsets& offsets, int j, const uint32_t* low, const uint32_t* high) {
+  const int64_t a = offsets[j], b = offsets[j + 1], c = offsets[j + 4], e = offsets[j + 5];
+  return {LoadPlaces(low, a, b, c, e), LoadPlaces(high, a, b, c, e)};
 }
 #endif
 // low, high: where the offsets count from in the two rows.
@@ -132,25 +147,42 @@ HWY_INLINE Footprints LoadFootprints(const LaneOffsets& offsets, const uint32_t*
 }
 #endif
 
-// 2^23 + a byte of each texel, without a conversion: floats from 2^23 to 2^24 are whole numbers with the byte in their
-// last bits.
-inline constexpr uint32_t kTwoTo23 = 0x4b000000u;
+// A byte of each texel as a float, without a conversion: floats from 2^23 to 2^24 are whole numbers with the byte in
+// their last bits, and those from 2^15 on have whole numbers' bits eight places further up. So a shift serves two
+// channels; what the byte is lifted by differs.
+constexpr float lift_of(int channel) { return channel % 2 == 0 ? 8388608.0f : 32768.0f; }
 template <int kChannel>
 HWY_INLINE VF Lifted(VU texel) {
   const DU d;
-  const VU shifted = hn::ShiftRight<8 * kChannel>(texel);
-  return hn::BitCast(DF(), hn::OrAnd(hn::Set(d, kTwoTo23), shifted, hn::Set(d, 255u)));
+  if constexpr (kChannel >= 2) texel = hn::ShiftRight<16>(texel);
+  const VU byte = hn::Set(d, kChannel % 2 == 0 ? 0xffu : 0xff00u);
+  const VU lift = hn::BitCast(d, hn::Set(DF(), lift_of(kChannel)));
+#if HWY_TARGET == HWY_AVX3
+  // (texel & byte) | lift, in the texel's register: Highway's OrAnd takes a copy of the constant.
+  return hn::BitCast(DF(), VU{_mm512_ternarylogic_epi32(texel.raw, byte.raw, lift.raw, 0xea)});
+#else
+  return hn::BitCast(DF(), hn::OrAnd(lift, texel, byte));
+#endif
 }
 
-// Columns first, then rows. What is lifted by 2^23 needs no lowering where only a difference is wanted, which is exact.
-template <int kChannel>
-HWY_INLINE VF FilterChannel(const Footprints& texels, VF wu, VF wv) {
-  const VF lift = hn::Set(DF(), 8388608.0f);
-  const VF a = Lifted<kChannel>(texels.low.first), b = Lifted<kChannel>(texels.low.second);
-  const VF above_a = Lifted<kChannel>(texels.high.first), above_b = Lifted<kChannel>(texels.high.second);
-  const VF left = hn::Add(hn::Sub(a, lift), hn::Mul(hn::Sub(above_a, a), wv));
-  const VF right = hn::Add(hn::Sub(b, lift), hn::Mul(hn::Sub(above_b, b), wv));
-  return hn::Add(left, hn::Mul(hn::Sub(right, left), wu));
+// One or two channels of bilinear lookups, in float. Columns first, then rows. What is lifted needs no lowering where only
+// a difference is wanted, which is exact. All of it step by step rather than channel by channel: the processor
+// looks only so far ahead for what need not wait.
+template <int kChannel, int kCount>
+HWY_INLINE void FilterChannels(const Footprints& texels, VF wu, VF wv, VF* out) {
+  // Left and right of the first channel, left and right of the second.
+  constexpr int kSides = 2 * kCount, kNext = kChannel + kCount - 1;
+  VF low[4] = {Lifted<kChannel>(texels.low.first), Lifted<kChannel>(texels.low.second),
+               Lifted<kNext>(texels.low.first), Lifted<kNext>(texels.low.second)};
+  VF rise[4] = {Lifted<kChannel>(texels.high.first), Lifted<kChannel>(texels.high.second),
+                Lifted<kNext>(texels.high.first), Lifted<kNext>(texels.high.second)};
+  for (int k = 0; k < kSides; ++k) rise[k] = hn::Sub(rise[k], low[k]);
+  for (int k = 0; k < kSides; ++k) rise[k] = hn::Mul(rise[k], wv);
+  for (int k = 0; k < kSides; ++k) low[k] = hn::Sub(low[k], hn::Set(DF(), lift_of(kChannel + k / 2)));
+  for (int k = 0; k < kSides; ++k) low[k] = hn::Add(low[k], rise[k]);
+  for (int k = 0; k < kCount; ++k) rise[k] = hn::Sub(low[2 * k + 1], low[2 * k]);
+  for (int k = 0; k < kCount; ++k) rise[k] = hn::Mul(rise[k], wu);
+  for (int k = 0; k < kCount; ++k) out[k] = hn::Add(low[2 * k], rise[k]);
 }
 
 // Bilinear lookups for all lanes, in float, counting offsets from `low` and `high` in the two rows. `opaque`: every
@@ -158,10 +190,13 @@ HWY_INLINE VF FilterChannel(const Footprints& texels, VF wu, VF wv) {
 HWY_INLINE void Bilinear(const LaneOffsets& offsets, const uint32_t* low, const uint32_t* high, VF wu, VF wv, bool opaque,
                          Lanes& v) {
   const Footprints texels = LoadFootprints(offsets, low, high);
-  v.slot[kTexR] = FilterChannel<0>(texels, wu, wv);
-  v.slot[kTexG] = FilterChannel<1>(texels, wu, wv);
-  v.slot[kTexB] = FilterChannel<2>(texels, wu, wv);
-  v.slot[kTexA] = opaque ? hn::Set(DF(), 255.0f) : FilterChannel<3>(texels, wu, wv);
+  FilterChannels<0, 2>(texels, wu, wv, &v.slot[kTexR]);
+  if (opaque) {
+    FilterChannels<2, 1>(texels, wu, wv, &v.slot[kTexB]);
+    v.slot[kTexA] = hn::Set(DF(), 255.0f);
+  } else {
+    FilterChannels<2, 2>(texels, wu, wv, &v.slot[kTexB]);
+  }
 }
 
 HWY_INLINE VI TexelOffset(const LevelRef& level, VI x, VI y) {
@@ -203,7 +238,7 @@ HWY_INLINE VU LoadTexels(const LaneOffsets& offsets, const uint32_t* texels) {
 
 // Where a nearest lookup on level 0 reads. A stage of its own for the reason Footprint is one.
 struct FootprintNearest {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
@@ -216,7 +251,7 @@ struct FootprintNearest {
 // The same for REPEAT both ways on sizes that are powers of two: what snaps to the far edge, and what is no number, falls
 // under the mask.
 struct FootprintNearestRepeat {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   struct Once {
     VF scale_s, scale_t;  // to 1/1024 texels
@@ -246,12 +281,12 @@ struct FootprintNearestRepeat {
 };
 
 struct SampleNearest {
-  static constexpr bool kKills = false, kPacks = true, kTakesFromMemory = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true, kTakesFromMemory = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    UnpackTexels(LoadTexels(LaneOffsets(c.slot[kOffset] + i), c.params->levels[0].texels), v);
+    UnpackTexels(LoadTexels(LaneOffsets(SlotAt(c, kOffset, i)), c.params->levels[0].texels), v);
   }
 };
 
@@ -276,29 +311,62 @@ HWY_INLINE void LookLinear(const LevelRef& level, const LaneOffsets& offsets, VF
 
 // Where a bilinear lookup on level 0 reads: slots s, t become the weights, and the offset of the lower left texel joins
 // them. A stage of its own, since a lookup's loads can only overlap with the next row's if little lies before them.
-template <bool kRepeat>
 struct Footprint {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
-    const Wrap wrap_s = kRepeat ? Wrap::repeat : c.params->sampler.wrap_s;
-    const Wrap wrap_t = kRepeat ? Wrap::repeat : c.params->sampler.wrap_t;
-    const Place place = FindPlace(c.params->levels[0], wrap_s, wrap_t, v.slot[kS], v.slot[kT]);
+    const Sampler& sampler = c.params->sampler;
+    const Place place = FindPlace(c.params->levels[0], sampler.wrap_s, sampler.wrap_t, v.slot[kS], v.slot[kT]);
     v.slot[kS] = place.wu;
     v.slot[kT] = place.wv;
     v.slot[kOffset] = hn::BitCast(DF(), place.offset);
   }
 };
 
+// The same for REPEAT both ways.
+struct FootprintRepeat {
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
+  template <class L>
+  struct Once {
+    VF width, height;
+    VI pitch, first;
+    HWY_INLINE explicit Once(const BlockContext& c) {
+      const LevelRef& level = c.params->levels[0];
+      width = hn::Set(DF(), level.width);
+      height = hn::Set(DF(), level.height);
+      pitch = hn::Set(DI(), level.pitch);
+      first = hn::Set(DI(), level.pitch + 1);
+    }
+  };
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int, Lanes& v) {
+    const VF s = Fraction(v.slot[kS]), t = Fraction(v.slot[kT]), half = hn::Set(DF(), 0.5f);
+    const VF x = hn::Sub(hn::Mul(s, once.width), half), y = hn::Sub(hn::Mul(t, once.height), half);
+    const VF x0 = hn::Floor(x), y0 = hn::Floor(y);
+    v.slot[kS] = hn::Sub(x, x0);
+    v.slot[kT] = hn::Sub(y, y0);
+    const VI row = hn::Mul(TruncateInRange(y0), once.pitch);
+    v.slot[kOffset] = hn::BitCast(DF(), hn::Add(row, hn::Add(TruncateInRange(x0), once.first)));
+  }
+
+ private:
+  // In [0, 1] for whatever number; what is none becomes 0 (the first operand's, in Max), since dead lanes are looked up.
+  static HWY_INLINE VF Fraction(VF v) { return hn::Max(hn::Sub(v, hn::Floor(v)), hn::Zero(DF())); }
+};
+
+// kOpaque: every texel is.
+template <bool kOpaque>
 struct SampleLinear {
-  static constexpr bool kKills = false, kPacks = true, kTakesFromMemory = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true, kTakesFromMemory = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    LookLinear(c.params->levels[0], LaneOffsets(c.slot[kOffset] + i), v.slot[kS], v.slot[kT], v);
+    const LevelRef& level = c.params->levels[0];
+    Bilinear(LaneOffsets(SlotAt(c, kOffset, i)), level.texels, level.texels + level.pitch, v.slot[kS], v.slot[kT],
+             kOpaque, v);
   }
 };
 
@@ -360,7 +428,7 @@ HWY_INLINE void LookLinearDraft(const LevelRef& level, const LaneOffsets& offset
 }
 
 struct FootprintDraft {
-  static constexpr bool kKills = false, kPacks = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
@@ -375,11 +443,11 @@ struct FootprintDraft {
 };
 
 struct SampleLinearDraft {
-  static constexpr bool kKills = false, kPacks = true, kTakesFromMemory = true;
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true, kTakesFromMemory = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    LookLinearDraft(c.params->levels[0], LaneOffsets(c.slot[kOffset] + i), v.slot[kS], v.slot[kT], v);
+    LookLinearDraft(c.params->levels[0], LaneOffsets(SlotAt(c, kOffset, i)), v.slot[kS], v.slot[kT], v);
   }
 };
