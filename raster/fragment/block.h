@@ -93,6 +93,23 @@ inline constexpr int kRowBlocks = kTileSize / kBlockSize;
 // A line of the cache more than a row has: or else slots would share the same few sets.
 inline constexpr int kSlotPixels = kRowBlocks * kBlockPixels + 16;
 
+// Products of a triangle's planes along the rows and the columns of a tile, as raster/fragment/tile_lanes.inl lays them
+// out: for all kernels that take the triangle's whole blocks. A plane is worked out when the first of them asks for it.
+struct alignas(64) TilePlanes {
+  struct alignas(64) Single {
+    float across[2 * kTileSize];
+    float row[kTileSize];
+    float rows[8 * kTileSize];  // each as a vector of rows has it
+  };
+  Single single[kMaxPlanes];
+  struct alignas(64) Double {
+    double across[kTileSize], row[kTileSize];
+  };
+  Double wide[kMaxPlanes];
+  uint32_t has_single, has_double;  // bits of planes
+  int begin, end;                   // rows of the tile that are asked for
+};
+
 struct alignas(64) BlockContext {
   float slot[kSlotCount][kSlotPixels];
   const FragmentParams* params;
@@ -101,6 +118,7 @@ struct alignas(64) BlockContext {
   double dx, dy;          // centre of the block's lowest-left pixel minus the anchor
   uint64_t blocks;        // whole blocks of a tile; then (dx, dy), colour and depth are the tile's, else the block's
   uint64_t row_live[kRowBlocks];  // of such a row of whole blocks, what `live` is of one
+  TilePlanes* planes;     // with `blocks`
   uint64_t live;          // bit (y % 8) * 8 + x % 8
   uint32_t* depth;        // the block's 64 pixels
   uint8_t* stencil;       // likewise

@@ -14,60 +14,44 @@ HWY_INLINE int TileColumn(int i) {
   return i / kBlockPixels % kBlocksPerRow * kGroupsPerRow + i % kBlockSize / kLanes % kGroupsPerRow;
 }
 
-// Rows from the first block's to the last one's: the others are not asked for.
-struct TileRows {
-  int begin, end;
-  HWY_INLINE explicit TileRows(const BlockContext& c)
-      : begin(__builtin_ctzll(c.blocks) / kBlocksPerRow * kBlockSize),
-        end((63 - __builtin_clzll(c.blocks)) / kBlocksPerRow * kBlockSize + kBlockSize) {}
-};
-
-#if HWY_TARGET == HWY_AVX3
-// As FillRows does, but not through a pointer: g++ would then reload what is the same for all blocks after
-// every store.
-HWY_INLINE VF TwoRows(float first, float second) {
-  const hn::Half<DF> half;
-  return hn::Combine(DF(), hn::Set(half, second), hn::Set(half, first));
+// The values of BlockPlane: the same operations on the same numbers. Each plane is worked out once a triangle, and out of
+// line: every kernel has several.
+HWY_NOINLINE void FillTilePlane(const BlockContext& c, int plane) {
+  TilePlanes& tables = *c.planes;
+  TilePlanes::Single& table = tables.single[plane];
+  tables.has_single |= 1u << plane;
+  const SetupBatch& s = *c.setup;
+  const DF d;
+  const VF dfdx = hn::Set(d, s.dfdx_f[plane][c.lane]);
+  const VF column = BlockPlane::Column();
+  constexpr int kStep = kLanes < kBlockSize ? kLanes : kBlockSize;
+  for (int g = 0; g < kBlocksPerRow * kGroupsPerRow; ++g) {
+    const VF dx = hn::Add(column, hn::Set(d, static_cast<float>(c.dx) + static_cast<float>(g * kStep)));
+    hn::Store(hn::Mul(dfdx, dx), d, table.across + g * kLanes);
+  }
+  const hn::CappedTag<float, kBlockSize> dr;
+  const int step = static_cast<int>(hn::MaxLanes(dr));
+  const auto f0 = hn::Set(dr, s.f0_f[plane][c.lane]), dfdy = hn::Set(dr, s.dfdy_f[plane][c.lane]);
+  const auto first = hn::Iota(dr, 0);
+  for (int n = tables.begin; n < tables.end; n += step) {
+    const auto dy = hn::Add(hn::Set(dr, static_cast<float>(c.dy)), hn::Add(first, hn::Set(dr, static_cast<float>(n))));
+    hn::Store(hn::Add(f0, hn::Mul(dfdy, dy)), dr, table.row + n);
+  }
+  if constexpr (kRowsPerGroup > 1)
+    for (int n = tables.begin; n < tables.end; n += kRowsPerGroup)
+      hn::Store(FillRows(table.row + n), d, table.rows + n * kBlockSize);
 }
-#endif
 
-// The values of BlockPlane: the same operations on the same numbers.
 struct TilePlane {
-  VF across[kBlocksPerRow * kGroupsPerRow];  // dfdx * dx
-  alignas(64) float row[kTileSize];          // f0 + dfdy * dy
-#if HWY_TARGET == HWY_AVX3
-  VF rows[kTileSize / kRowsPerGroup];
-#endif
-  HWY_INLINE TilePlane(const BlockContext& c, int plane) {
-    const SetupBatch& s = *c.setup;
-    const DF d;
-    const TileRows needed(c);
-    const VF dfdx = hn::Set(d, s.dfdx_f[plane][c.lane]);
-    const VF column = BlockPlane::Column();
-    constexpr int kStep = kLanes < kBlockSize ? kLanes : kBlockSize;
-    for (int g = 0; g < kBlocksPerRow * kGroupsPerRow; ++g)
-      across[g] = hn::Mul(
-          dfdx, hn::Add(column, hn::Set(d, static_cast<float>(c.dx) + static_cast<float>(g * kStep))));
-    const hn::CappedTag<float, kBlockSize> dr;
-    const int step = static_cast<int>(hn::MaxLanes(dr));
-    const auto f0 = hn::Set(dr, s.f0_f[plane][c.lane]), dfdy = hn::Set(dr, s.dfdy_f[plane][c.lane]);
-    const auto first = hn::Iota(dr, 0);
-    for (int n = needed.begin; n < needed.end; n += step) {
-      const auto dy =
-          hn::Add(hn::Set(dr, static_cast<float>(c.dy)), hn::Add(first, hn::Set(dr, static_cast<float>(n))));
-      hn::Store(hn::Add(f0, hn::Mul(dfdy, dy)), dr, row + n);
-    }
-#if HWY_TARGET == HWY_AVX3
-    for (int n = needed.begin; n < needed.end; n += kRowsPerGroup)
-      rows[n / kRowsPerGroup] = TwoRows(row[n], row[n + 1]);
-#endif
+  const TilePlanes::Single* table;
+  HWY_INLINE TilePlane(const BlockContext& c, int plane) : table(&c.planes->single[plane]) {
+    if ((c.planes->has_single >> plane & 1) == 0) FillTilePlane(c, plane);
   }
   HWY_INLINE VF At(int i) const {
-#if HWY_TARGET == HWY_AVX3
-    return hn::Add(rows[TileRow(i) / kRowsPerGroup], across[TileColumn(i)]);
-#else
-    return hn::Add(hn::Set(DF(), row[TileRow(i)]), across[TileColumn(i)]);
-#endif
+    const DF d;
+    const VF across = hn::Load(d, table->across + TileColumn(i) * kLanes);
+    if constexpr (kRowsPerGroup > 1) return hn::Add(hn::Load(d, table->rows + TileRow(i) * kBlockSize), across);
+    else return hn::Add(hn::Set(d, table->row[TileRow(i)]), across);
   }
 };
 
@@ -80,25 +64,32 @@ struct LevelPlane {
 };
 
 // The values of BlockPlaneDouble.
+HWY_NOINLINE void FillTilePlaneDouble(const BlockContext& c, int plane) {
+  TilePlanes& tables = *c.planes;
+  TilePlanes::Double& table = tables.wide[plane];
+  tables.has_double |= 1u << plane;
+  const SetupBatch& s = *c.setup;
+  const DD d;
+  const double f0 = s.f0[plane][c.lane], dfdy = s.dfdy[plane][c.lane];
+  const auto dfdx = hn::Set(d, s.dfdx[plane][c.lane]);
+  for (int x = 0; x < kTileSize; x += kDoubleLanes)
+    hn::Store(hn::Mul(dfdx, hn::Add(hn::Iota(d, 0), hn::Set(d, c.dx + x))), d, table.across + x);
+  for (int n = tables.begin; n < tables.end; ++n) table.row[n] = f0 + dfdy * (c.dy + n);
+}
+
 struct TilePlaneDouble {
   static constexpr int kParts = BlockPlaneDouble::kParts;
-  hn::Vec<DD> across[kTileSize / kDoubleLanes];
-  double row[kTileSize];
-  HWY_INLINE TilePlaneDouble(const BlockContext& c, int plane) {
-    const SetupBatch& s = *c.setup;
-    const DD d;
-    const TileRows needed(c);
-    const double f0 = s.f0[plane][c.lane], dfdy = s.dfdy[plane][c.lane];
-    const auto dfdx = hn::Set(d, s.dfdx[plane][c.lane]);
-    for (int g = 0; g < kTileSize / kDoubleLanes; ++g)
-      across[g] = hn::Mul(dfdx, hn::Add(hn::Iota(d, 0), hn::Set(d, c.dx + g * kDoubleLanes)));
-    for (int n = needed.begin; n < needed.end; ++n) row[n] = f0 + dfdy * (c.dy + n);
+  const TilePlanes::Double* table;
+  HWY_INLINE TilePlaneDouble(const BlockContext& c, int plane) : table(&c.planes->wide[plane]) {
+    if ((c.planes->has_double >> plane & 1) == 0) FillTilePlaneDouble(c, plane);
   }
   HWY_INLINE VD At(int i) const {
+    const DD d;
     VD v;
-    for (int p = 0; p < kDoubleParts; ++p)
-      v.part[p] =
-          hn::Add(hn::Set(DD(), row[TileRow(i) + p / kParts]), across[TileColumn(i) * kParts + p % kParts]);
+    for (int p = 0; p < kDoubleParts; ++p) {
+      const double* across = table->across + (TileColumn(i) * kParts + p % kParts) * kDoubleLanes;
+      v.part[p] = hn::Add(hn::Set(d, table->row[TileRow(i) + p / kParts]), hn::Load(d, across));
+    }
     return v;
   }
 };

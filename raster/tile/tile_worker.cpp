@@ -45,6 +45,7 @@ struct TileContext {
   bool packs_points;  // points of one pixel wait with the others, without any set-up
   TileStatistics* statistics;
   BlockContext block;
+  TilePlanes planes;
   SetupBatch setup;
   SetupInput input;
   bool input_is_clear;
@@ -384,6 +385,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.notes = statistics.notes;
   t.block.meter = statistics.meter;
   t.block.setup = &t.setup;
+  t.block.planes = &t.planes;
   t.block.coverage = whole;
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
   FlushPacked(t);

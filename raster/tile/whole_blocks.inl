@@ -3,7 +3,8 @@
 // A block in a call of its own costs less than what a whole tile's planes do, where there are but a few.
 constexpr int kFewBlocks = 4;
 
-// The depth of blocks that were drawn just now is the triangle's. The tile keeps one such plane; what another's blocks hold is written.
+// The depth of blocks that were drawn just now is the triangle's. The tile keeps one such plane; where other blocks still
+// hold another, this one's are written.
 void TakeDepth(TileContext& t, int lane, uint64_t blocks) {
   const SetupBatch& s = t.setup;
   TileState& state = *t.state;
@@ -71,12 +72,15 @@ void RunWholeBlocks(TileContext& t, int lane, uint64_t blocks, const BlockProgra
     for (; blocks != 0; blocks &= blocks - 1) RunBlock(t, lane, __builtin_ctzll(blocks), ~uint64_t{0});
     return;
   }
+  t.planes.has_single = t.planes.has_double = 0;
+  t.planes.begin = __builtin_ctzll(blocks) / 8 * kBlockSize;
+  t.planes.end = (63 - __builtin_clzll(blocks)) / 8 * kBlockSize + kBlockSize;
   if (!program.reads_depth) return RunTileKernel(t, lane, blocks, stages.whole);
   if (!program.accepts_nearer) return RunTestedBlocks(t, lane, blocks, stages);
   const BlockDepths depths(s, lane, blocks);
   const CoarseDepth coarse = depths.Compare(*t.state, program.depth.func == CompareFunc::less_equal);
   blocks &= ~coarse.hidden;
-  const uint64_t nearer = blocks & coarse.nearer, tested = blocks & ~nearer;
+  const uint64_t nearer = stages.nearer.exists() ? blocks & coarse.nearer : 0, tested = blocks & ~nearer;
   if (tested != 0 && stages.whole.exists()) {
     if ((t.state->depth_marks() & tested) != 0) t.framebuffer->settle_depth(t.tile, tested);
     RunTileKernel(t, lane, tested, stages.whole);
