@@ -152,33 +152,142 @@ HWY_INLINE void RunGroups(TileContext& t, int lane, const GroupList& list, uint6
 // With as many blocks that are covered all over, what the planes of a tile cost is made up for.
 inline constexpr int kManyBlocks = 16;
 
+#if HWY_TARGET == HWY_AVX3
+// Pixels of a triangle in all blocks of a tile's row at once: each row of pixels is a span, from the
+// rightmost of the edges it enters by to the leftmost of those it leaves by. Where an edge is crossed is
+// floor(e / step), in double: the quotient is off by less than 2^-44 where it lies in the tile, and further
+// than 2^-31 from the integers it is none of.
+class SpanWalk {
+ public:
+  HWY_INLINE explicit SpanWalk(const GroupWalk& walk) : walk_(walk) {
+    const __m512d rows = _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7);
+    for (int k = 0; k < 3; ++k) {
+      const int32_t step = walk.step_x[k];
+      // An edge without a step is entered by everywhere, or nowhere.
+      const double turn = step != 0 ? -1.0 / static_cast<double>(step) : -0x1p20;
+      enters_[k] = static_cast<__mmask8>(step >= 0 ? 0xff : 0);
+      turn_[k] = _mm512_set1_pd(turn);
+      bias_[k] = _mm512_set1_pd(step >= 0 ? 1 - 0x1p-32 : 0x1p-40);
+      rise_[k] = _mm512_mul_pd(rows, _mm512_set1_pd(static_cast<double>(walk.step_y[k])));
+    }
+  }
+
+  // Of the blocks in row `row`: their pixels inside.
+  HWY_INLINE __m512i Row(int row) const {
+    const __m512d zero = _mm512_setzero_pd(), none = _mm512_set1_pd(-1), last = _mm512_set1_pd(kTileSize - 1),
+                  end = _mm512_set1_pd(kTileSize);
+    __m512d from = zero, to = last;
+    for (int k = 0; k < 3; ++k) {
+      const double base =
+          static_cast<double>(walk_.edge[k]) + static_cast<double>(walk_.step_y[k]) * (kBlockSize * row);
+      const __m512d e = _mm512_add_pd(rise_[k], _mm512_set1_pd(base));
+      const __m512d at = _mm512_floor_pd(_mm512_add_pd(_mm512_mul_pd(e, turn_[k]), bias_[k]));
+      from = _mm512_mask_max_pd(from, enters_[k], from, at);
+      to = _mm512_mask_min_pd(to, static_cast<__mmask8>(~enters_[k]), to, at);
+    }
+    // Shifts by 64 leave nothing.
+    const __m512i left = Whole(_mm512_min_pd(from, end)),
+                  right = Whole(_mm512_sub_pd(last, _mm512_max_pd(to, none)));
+    const __m512i ones = _mm512_set1_epi64(-1);
+    return Turn(_mm512_and_si512(_mm512_sllv_epi64(ones, left), _mm512_srlv_epi64(ones, right)));
+  }
+
+ private:
+  static HWY_INLINE __m512i Whole(__m512d small) { return _mm512_cvttpd_epi64(small); }
+
+  // From rows of eight blocks' bytes each to blocks of eight rows' bytes.
+  static HWY_INLINE __m512i Turn(__m512i rows) {
+    const __m128i pairs = _mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+    const __m512i blocks = _mm512_set_epi16(31, 23, 15, 7, 30, 22, 14, 6, 29, 21, 13, 5, 28, 20, 12, 4,  //
+                                            27, 19, 11, 3, 26, 18, 10, 2, 25, 17, 9, 1, 24, 16, 8, 0);
+    return _mm512_permutexvar_epi16(blocks, _mm512_shuffle_epi8(rows, _mm512_broadcast_i32x4(pairs)));
+  }
+
+  const GroupWalk& walk_;
+  __mmask8 enters_[3];
+  __m512d turn_[3], bias_[3], rise_[3];
+};
+
+// What a triangle covers of the tile's blocks.
+struct BlockMasks {
+  alignas(64) uint64_t masks[kTileBlocks];
+  uint64_t touched = 0, covered = 0;
+
+  HWY_INLINE BlockMasks(const GroupWalk& walk, const SetupBatch& s, int lane) {
+    const SpanWalk spans(walk);
+    for (int row = s.min_y[lane] / kBlockSize; row <= s.max_y[lane] / kBlockSize; ++row) {
+      const __m512i blocks = spans.Row(row);
+      _mm512_store_si512(masks + row * 8, blocks);
+      touched |= uint64_t{_mm512_test_epi64_mask(blocks, blocks)} << (row * 8);
+      covered |= uint64_t{_mm512_cmpeq_epi64_mask(blocks, _mm512_set1_epi64(-1))} << (row * 8);
+    }
+  }
+
+  HWY_INLINE uint64_t Of(int block) const { return masks[block]; }
+  HWY_INLINE void AddTo(GroupList& list, uint64_t blocks) const {
+    const int first = __builtin_ctzll(blocks) / 8, last = (63 - __builtin_clzll(blocks)) / 8;
+    const __m512i index = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    for (int row = first; row <= last; ++row) {
+      const __m512i some =
+          _mm512_maskz_loadu_epi64(static_cast<__mmask8>(blocks >> (row * 8)), masks + row * 8);
+      alignas(64) uint64_t each[8];
+      _mm512_store_si512(each, some);
+      for (const uint64_t mask : each) list.fragments += static_cast<uint64_t>(__builtin_popcountll(mask));
+      for (int half = 0; half < 2; ++half) {
+        const __m256i words = half == 0 ? _mm512_castsi512_si256(some) : _mm512_extracti64x4_epi64(some, 1);
+        const __m512i live = _mm512_slli_epi32(_mm512_cvtepu16_epi32(words), 16);
+        const __mmask16 any = _mm512_test_epi32_mask(live, live);
+        const __m512i groups =
+            _mm512_or_si512(live, _mm512_add_epi32(index, _mm512_set1_epi32(row * 32 + half * 16)));
+        _mm512_storeu_si512(list.groups + list.count, _mm512_maskz_compress_epi32(any, groups));
+        list.count += __builtin_popcount(any);
+      }
+    }
+  }
+};
+#else
+struct BlockMasks {
+  const GroupWalk& walk;
+  uint64_t touched, covered;
+
+  HWY_INLINE BlockMasks(const GroupWalk& triangle, const SetupBatch& s, int lane) : walk(triangle) {
+    walk.Blocks(s.min_x[lane], s.min_y[lane], s.max_x[lane], s.max_y[lane], touched, covered);
+  }
+  HWY_INLINE uint64_t Of(int block) const {
+    if ((covered >> block & 1) != 0) return ~uint64_t{0};
+    return walk.Pixels(block % 8 * kBlockSize, block / 8 * kBlockSize);
+  }
+  HWY_INLINE void AddTo(GroupList& list, uint64_t blocks) const {
+    for (; blocks != 0; blocks &= blocks - 1) list.Add(__builtin_ctzll(blocks), Of(__builtin_ctzll(blocks)));
+  }
+};
+#endif
+
 // A triangle larger than a window. `collects`: RunWholeBlocks can take blocks.
 void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool collects) {
   const SetupBatch& s = t.setup;
   const GroupWalk walk(s, lane);
-  uint64_t touched, covered;
-  walk.Blocks(s.min_x[lane], s.min_y[lane], s.max_x[lane], s.max_y[lane], touched, covered);
-  if (t.masks_blocks) covered = 0;
+  const BlockMasks masks(walk, s, lane);
+  uint64_t touched = masks.touched;
   if (touched == 0) return;
   if (t.program->rejects_deeper) touched &= ~BlockDepths(s, lane, touched).Hidden(*t.state);
-  covered &= touched;
+  uint64_t covered = t.masks_blocks ? 0 : masks.covered & touched;
   if (collects && covered != 0 && (stages.whole.fills || __builtin_popcountll(covered) >= kManyBlocks)) {
     TakeWholeBlocks(t, lane, covered, stages);
     touched &= ~covered;
     covered = 0;
   }
+  if (touched == 0) return;
   GroupList list(t.groups);
-  uint64_t blocks = 0;
-  for (uint64_t todo = touched; todo != 0; todo &= todo - 1) {
-    const int block = __builtin_ctzll(todo);
-    const uint64_t bit = todo & (~todo + 1);
-    uint64_t mask = ~uint64_t{0};
-    if ((covered & bit) == 0) mask = walk.Pixels(block % 8 * kBlockSize, block / 8 * kBlockSize);
-    if (t.masks_blocks) mask &= BlockMask(t, block);
-    list.Add(block, mask);
-    blocks |= mask != 0 ? bit : 0;
+  if (!t.masks_blocks) {
+    masks.AddTo(list, touched);
+  } else {
+    for (uint64_t todo = touched; todo != 0; todo &= todo - 1) {
+      const int block = __builtin_ctzll(todo);
+      list.Add(block, masks.Of(block) & BlockMask(t, block));
+    }
   }
   if (list.count == 0) return;
-  RunGroups(t, lane, list, blocks, stages);
+  RunGroups(t, lane, list, touched, stages);
   if (covered != 0 && t.program->depth_pass_lowers) LowerDepthMax(t, lane, covered);
 }

@@ -52,7 +52,7 @@ struct TileContext {
   Packer packer;
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
   ListedPixels listed;
-  TileGroup groups[kTilePixels / kBlockSize + 1];  // what a triangle covers, and room for an empty one
+  TileGroup groups[kTilePixels / kBlockSize + 16];  // what a triangle covers, and room for a vector more
 };
 
 #include "raster/tile/coarse_depth.inl"
