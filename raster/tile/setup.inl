@@ -184,12 +184,22 @@ struct PlaneMaker {
 };
 
 // REPEAT: whole turns come off before anything becomes float, so that what is left lies around 0. All lanes take part;
-// others' Wrap leaves values alone.
-HWY_INLINE void TakeWholeTurns(VD value[3]) {
+// others' Wrap leaves values alone. `mips`: there lies what is near the eye, since what is far is looked up in large texels.
+HWY_INLINE void TakeWholeTurns(const VD inv_w[3], bool mips, VD value[3]) {
   const DD d;
   const VD least = hn::Min(hn::Min(value[0], value[1]), value[2]);
   const VD most = hn::Max(hn::Max(value[0], value[1]), value[2]);
-  const VD turns = hn::Floor(hn::Mul(hn::Add(least, most), hn::Set(d, 0.5)));
+  VD middle = hn::Mul(hn::Add(least, most), hn::Set(d, 0.5));
+  if (mips) {
+    VD sum = hn::Zero(d), weights = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) {
+      const VD weight = hn::Mul(inv_w[k], inv_w[k]);
+      sum = hn::Add(sum, hn::Mul(value[k], weight));
+      weights = hn::Add(weights, weight);
+    }
+    middle = hn::Div(sum, weights);
+  }
+  const VD turns = hn::Floor(middle);
   for (int k = 0; k < 3; ++k) value[k] = hn::Sub(value[k], turns);
 }
 
@@ -221,19 +231,59 @@ struct CornerBounds {
     fails = hn::Not(hn::Or(maker.affine, near));
   }
 
-  HWY_INLINE void Check(int plane, VD tolerance, int i, const SetupBatch& out) {
+  // The tolerance holds everywhere, or `reach` times as much does by way of 1/w: error / w <= reach * tolerance.
+  HWY_INLINE void Check(int plane, VD tolerance, VD reach, int i, const SetupBatch& out) {
     const DD d;
-    VD error = hn::Zero(d), value = hn::Zero(d);
+    VD error = hn::Zero(d), value = hn::Zero(d), by_w = hn::Zero(d);
+    const VD quotient = hn::Add(w_error, hn::Set(d, 2 * kRounding));
     for (int k = 0; k < 3; ++k) {
       const Corner corner = Largest(plane, k, i, out);
       error = hn::Max(error, corner.error);
       value = hn::Max(value, hn::Abs(corner.value));
+      const VD sum = hn::Add(corner.error, hn::Mul(hn::Abs(corner.value), quotient));
+      by_w = hn::Max(by_w, hn::Div(sum, spread[k]));
     }
-    const VD quotient = hn::Mul(value, hn::Add(w_error, hn::Set(d, 2 * kRounding)));
-    fails = hn::Or(fails, hn::Not(hn::Le(hn::Add(error, quotient), tolerance)));
+    const auto everywhere = hn::Le(hn::Add(error, hn::Mul(value, quotient)), tolerance);
+    fails = hn::Or(fails, hn::Not(hn::Or(everywhere, hn::Le(by_w, hn::Mul(tolerance, reach)))));
+  }
+
+  // Texels are larger than those of level 0 where mip levels are looked up. With rho = g w^2, g its least numerator, a
+  // level's texel is at least max(1, rho / 2) >= sqrt(g / 2) w texels of level 0: this is the root.
+  HWY_INLINE VD ReachOfMips(const VertexLayout& layout, const FragmentParams& params, hn::Mask<DD> affine, int i,
+                            const SetupBatch& out) const {
+    const DD d;
+    const VD q = hn::IfThenElse(affine, hn::Set(d, 1.0), hn::Load(d, out.f0[1] + i));
+    const VD qx = hn::IfThenZeroElse(affine, hn::Load(d, out.dfdx[1] + i));
+    const VD qy = hn::IfThenZeroElse(affine, hn::Load(d, out.dfdy[1] + i));
+    VD along_x[2], along_y[2], twist[2], back[2];
+    for (int axis = 0; axis < 2; ++axis) {
+      const int plane = 2 + layout.tex_coord + axis;
+      const VD size = hn::Set(d, params.lod_scale[axis]);
+      const VD s = hn::Mul(hn::Load(d, out.f0[plane] + i), size);
+      const VD sx = hn::Mul(hn::Load(d, out.dfdx[plane] + i), size), sy = hn::Mul(hn::Load(d, out.dfdy[plane] + i), size);
+      along_x[axis] = hn::Sub(hn::Mul(sx, q), hn::Mul(qx, s));
+      along_y[axis] = hn::Sub(hn::Mul(sy, q), hn::Mul(qy, s));
+      twist[axis] = hn::Sub(hn::Mul(sx, qy), hn::Mul(qx, sy));
+      back[axis] = hn::Neg(twist[axis]);
+    }
+    const VD squared = hn::Max(LeastSquare(along_x, twist, y), LeastSquare(along_y, back, x));
+    return hn::Sqrt(hn::Mul(hn::Sqrt(squared), hn::Set(d, 1 / 2.05)));
   }
 
  private:
+  // The least square of first + step * at, a vector of two, for `at` within the range of three values.
+  static HWY_INLINE VD LeastSquare(const VD first[2], const VD step[2], const VD at[3]) {
+    const DD d;
+    const VD from = hn::Min(hn::Min(at[0], at[1]), at[2]), to = hn::Max(hn::Max(at[0], at[1]), at[2]);
+    const VD along = hn::Add(hn::Mul(first[0], step[0]), hn::Mul(first[1], step[1]));
+    const VD length = hn::Add(hn::Mul(step[0], step[0]), hn::Mul(step[1], step[1]));
+    const auto turns = hn::Gt(length, hn::Zero(d));
+    const VD foot = hn::IfThenElseZero(turns, hn::Div(hn::Neg(along), hn::IfThenElse(turns, length, hn::Set(d, 1.0))));
+    const VD nearest = hn::Min(hn::Max(foot, from), to);
+    const VD a = hn::Add(first[0], hn::Mul(step[0], nearest)), b = hn::Add(first[1], hn::Mul(step[1], nearest));
+    return hn::Add(hn::Mul(a, a), hn::Mul(b, b));
+  }
+
   struct Corner {
     VD value, error;  // both times w
   };
@@ -253,14 +303,20 @@ HWY_NOINLINE void LookCloser(const VertexLayout& layout, const FragmentParams& p
                              const SetupBatch& out, PlaneMaker& maker) {
   const DD d;
   CornerBounds bounds(v, maker, i, out);
+  const VD nowhere = hn::Zero(d);
   for (int k = 0; layout.color >= 0 && k < 4; ++k)
-    bounds.Check(2 + layout.color + k, hn::Set(d, kCloseLook * kColorTolerance), i, out);
+    bounds.Check(2 + layout.color + k, hn::Set(d, kCloseLook * kColorTolerance), nowhere, i, out);
   if (layout.tex_coord >= 0) {
-    bounds.Check(2 + layout.tex_coord, hn::Set(d, kCloseLook * kTexelTolerance / params.levels[0].width_i), i, out);
-    bounds.Check(3 + layout.tex_coord, hn::Set(d, kCloseLook * kTexelTolerance / params.levels[0].height_i), i, out);
+    // Down to a level of one texel, and by each pixel's own lambda.
+    const LevelRef& last = params.levels[params.level_count - 1];
+    const bool mips = params.level_count > 1 && last.width_i == 1 && last.height_i == 1 && !params.one_lambda;
+    const VD reach = mips ? bounds.ReachOfMips(layout, params, maker.affine, i, out) : nowhere;
+    const double size[2] = {static_cast<double>(params.levels[0].width), static_cast<double>(params.levels[0].height)};
+    for (int axis = 0; axis < 2; ++axis)
+      bounds.Check(2 + layout.tex_coord + axis, hn::Set(d, kCloseLook * kTexelTolerance / size[axis]), reach, i, out);
   }
   if (layout.fog >= 0)
-    bounds.Check(2 + layout.fog, hn::Set(d, kCloseLook * kColorTolerance * params.fog.level_span), i, out);
+    bounds.Check(2 + layout.fog, hn::Set(d, kCloseLook * kColorTolerance * params.fog.level_span), nowhere, i, out);
   maker.needs_double = hn::And(maker.needs_double, bounds.fails);
 }
 
@@ -292,7 +348,7 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
     const Wrap wrap[3] = {params.sampler.wrap_s, params.sampler.wrap_t, Wrap::clamp};
     for (int a = 0; a < (layout.projective ? 3 : 2); ++a) {
       for (int k = 0; k < 3; ++k) value[k] = hn::Load(d, in.attribute[layout.tex_coord + a][k] + i);
-      if (!layout.projective && wrap[a] == Wrap::repeat) TakeWholeTurns(value);
+      if (!layout.projective && wrap[a] == Wrap::repeat) TakeWholeTurns(maker.inv_w, params.level_count > 1, value);
       maker.StoreAttribute(value, 2 + layout.tex_coord + a, i, layout.projective,
                            hn::Set(d, kTexelTolerance / size[a]), out);
     }

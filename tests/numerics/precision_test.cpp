@@ -175,5 +175,47 @@ TEST(PrecisionOnDemand, CoordinatesAreNeverFartherOffThanDerived) {
   EXPECT_GT(doubles, 10u);
 }
 
+// On mip levels coordinates are as near in texels of the level looked up. Level and filter are exact, so that only
+// coordinates differ from those in double.
+TEST(PrecisionOnDemand, CoordinatesAreAsNearOnTheLevelLookedUp) {
+  constexpr int kTextureSize = 256;
+  constexpr double kStep = 255 * kTexelBound;  // levels, along either axis
+  Random random(78);
+  TestTexture texture;
+  for (int size = kTextureSize; size > 0; size /= 2) texture.add_noise(random, size, size);
+  const auto view = texture.view(sampler_of(Filter::linear, Wrap::repeat, MipMode::linear));
+  Canvas canvas(kSize, kSize, 1, ColorFormat::rgba32f);
+  std::vector<float> pixels(kSize * kSize * 4), exact(kSize * kSize * 4);
+  uint64_t floats = 0, doubles = 0;
+  double worst = 0;
+  for (int n = 0; n < primitives(); ++n) {
+    const int viewport = n % 3 == 0 ? 64 : n % 3 == 1 ? 512 : 8192;
+    Primitive3 p = random_primitive(random);
+    const float turns = float(std::pow(10.0, double(random.real(-2, 3))));
+    for (Vertex& v : p.vertices) v.s = random.real(0, turns), v.t = random.real(0, turns);
+    DrawState state = plain_state(viewport, viewport);
+    state.texture.view = view;
+    state.texture.env = EnvMode::replace;
+    state.viewport.x = state.viewport.y = kSize / 2 - viewport / 2;
+    state.accuracy = Accuracy::all(Level::exact);
+    canvas.clear();
+    canvas.draw(state, Primitive::triangles, p.vertices);
+    canvas.device().read_color_float({0, 0, kSize, kSize}, exact.data());
+    state.accuracy.interpolation = state.accuracy.perspective = Level::standard;
+    const uint64_t before = canvas.device().statistics().double_fragments;
+    canvas.clear();
+    canvas.draw(state, Primitive::triangles, p.vertices);
+    canvas.device().read_color_float({0, 0, kSize, kSize}, pixels.data());
+    ++(canvas.device().statistics().double_fragments != before ? doubles : floats);
+    for (size_t i = 0; i < pixels.size(); ++i)
+      worst = std::max(worst, std::fabs(double(pixels[i]) - double(exact[i])) * 255);
+  }
+  std::cout << floats << " primitives in float, " << doubles << " in double; largest error " << worst << " levels of "
+            << 2 * kStep << "\n";
+  EXPECT_LE(worst, 2 * kStep + 0.02);
+  EXPECT_GT(floats, doubles / 10);
+  EXPECT_GT(doubles, floats / 100);
+}
+
 }  // namespace
 }  // namespace halfspace::test
