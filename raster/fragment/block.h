@@ -117,6 +117,7 @@ struct alignas(64) BlockContext {
   int lane;               // of the batch
   double dx, dy;          // centre of the block's lowest-left pixel minus the anchor
   uint64_t blocks;        // whole blocks of a tile; then (dx, dy), colour and depth are the tile's, else the block's
+  int first_slot = 0;       // of the block at hand among a row's
   uint64_t row_live[kRowBlocks];  // of such a row of whole blocks, what `live` is of one
   TilePlanes* planes;     // with `blocks`
   uint64_t live;          // bit (y % 8) * 8 + x % 8

@@ -227,31 +227,49 @@ void RunTileBlocks(BlockContext& c) {
 }
 
 // A part of a list on whole blocks of a row of a tile; slots count from the row's first pixel.
+template <class L, StageId... ids>
+HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  constexpr int kRowPixels = kRowBlocks * kBlockPixels;
+  const int first = block * kBlockPixels;
+  const uint64_t live = c.row_live[block % kRowBlocks];
+  uint64_t left = 0;
+  for (int p = 0; p < kBlockPixels; p += kLanes) {
+    const uint64_t group = live >> p & kGroupBits;
+    if (group == 0) continue;
+    const int i = first + p, slot = i % kRowPixels;
+    Lanes v;
+    v.live = MaskFromBits(group);
+    LoadSlots<TakenSlots<ids...>()>(c, slot, v);
+    (Step<L, ids>(c, once, i, v) && ...);
+    StoreSlots<LeftSlots<ids...>()>(v, slot, c);
+    if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << p;
+  }
+  if constexpr (kKills) {
+    c.row_live[block % kRowBlocks] = left;
+    if (left == 0) c.blocks &= ~(uint64_t{1} << block);
+  }
+}
+
+// Stages that work out something for each block say so.
+template <class Body>
+concept HasOncePerBlock = requires { Body::kOncePerBlock; };
+
 template <StageId... ids>
 void RunRowBlocks(BlockContext& c) {
   using L = TileLanes<false>;
-  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
-  constexpr int kRowPixels = kRowBlocks * kBlockPixels;
-  const OnceAll<L, ids...> once(c);
-  for (uint64_t todo = c.blocks; todo != 0; todo &= todo - 1) {
-    const int block = __builtin_ctzll(todo), first = block * kBlockPixels;
-    const uint64_t live = c.row_live[block % kRowBlocks];
-    uint64_t left = 0;
-    for (int p = 0; p < kBlockPixels; p += kLanes) {
-      const uint64_t group = live >> p & kGroupBits;
-      if (group == 0) continue;
-      const int i = first + p, slot = i % kRowPixels;
-      Lanes v;
-      v.live = MaskFromBits(group);
-      LoadSlots<TakenSlots<ids...>()>(c, slot, v);
-      (Step<L, ids>(c, once, i, v) && ...);
-      StoreSlots<LeftSlots<ids...>()>(v, slot, c);
-      if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << p;
+  if constexpr ((HasOncePerBlock<typename BodyOf<ids>::Type> || ...)) {
+    for (uint64_t todo = c.blocks; todo != 0; todo &= todo - 1) {
+      const int block = __builtin_ctzll(todo);
+      c.live = c.row_live[block % kRowBlocks];
+      c.first_slot = block % kRowBlocks * kBlockPixels;
+      RunRowBlock<L, ids...>(c, OnceAll<L, ids...>(c), block);
     }
-    if constexpr (kKills) {
-      c.row_live[block % kRowBlocks] = left;
-      if (left == 0) c.blocks &= ~(uint64_t{1} << block);
-    }
+    c.first_slot = 0;
+  } else {
+    const OnceAll<L, ids...> once(c);
+    for (uint64_t todo = c.blocks; todo != 0; todo &= todo - 1)
+      RunRowBlock<L, ids...>(c, once, __builtin_ctzll(todo));
   }
 }
 

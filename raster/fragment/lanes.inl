@@ -199,6 +199,10 @@ struct NothingOnce {
 // Rows of one block, one primitive: planes are evaluated here, memory is contiguous.
 struct BlockLanes {
   static HWY_INLINE uint64_t Live(const BlockContext& c) { return c.live; }
+  // Of pixel `i`: its row and its column, counted from the context's place; and how many there are.
+  static constexpr int kSide = kBlockSize;
+  static HWY_INLINE int Row(int i) { return i / kBlockSize; }
+  static HWY_INLINE int Column(int i) { return i % kBlockSize; }
   using Plane = BlockPlane;
   using PlaneOfAlpha = Plane;
   using PlaneDouble = BlockPlaneDouble;

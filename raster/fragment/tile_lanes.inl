@@ -97,6 +97,9 @@ struct TilePlaneDouble {
 // kLevelAlpha: the plane of alpha has no slope.
 template <bool kLevelAlpha>
 struct TileLanes : BlockLanes {
+  static constexpr int kSide = kTileSize;
+  static HWY_INLINE int Row(int i) { return TileRow(i); }
+  static HWY_INLINE int Column(int i) { return i / kBlockPixels % kBlocksPerRow * kBlockSize + i % kBlockSize; }
   using Plane = TilePlane;
   using PlaneOfAlpha = std::conditional_t<kLevelAlpha, LevelPlane, TilePlane>;
   using PlaneDouble = TilePlaneDouble;

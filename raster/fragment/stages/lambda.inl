@@ -24,17 +24,17 @@ HWY_INLINE VF Log2(VF x) {
 // the differences may cancel.
 template <bool kProjective>
 struct Lambda {
-  static constexpr bool kKills = false, kPacks = false;
+  static constexpr bool kKills = false, kPacks = false, kInTiles = true;
 
   template <class L>
   struct Once {
-    BlockPlaneDouble divisor;
+    typename L::PlaneDouble divisor;
     bool constant;                                                  // the divisor is
-    alignas(64) double along_x[kBlockSize], along_y[kBlockSize];  // of each row, of each column: texels squared * Q^4
+    alignas(64) double along_x[L::kSide], along_y[L::kSide];  // of each row, of each column: texels squared * Q^4
     VF lambda;                                                      // where the divisor is constant
     HWY_INLINE explicit Once(const BlockContext& c) : divisor(c, kProjective ? c.params->tex_plane + 2 : 1) {
       constant = !kProjective && (c.setup->variant[c.lane] & kAffine) != 0;
-      for (int n = 0; n < kBlockSize; ++n) along_x[n] = along_y[n] = 0;
+      for (int n = 0; n < L::kSide; ++n) along_x[n] = along_y[n] = 0;
       lambda = hn::Zero(DF());
       for (int axis = 0; axis < 2; ++axis) AddAxis(c, axis);
       const double longer = along_x[0] > along_y[0] ? along_x[0] : along_y[0];
@@ -54,7 +54,7 @@ struct Lambda {
         q = setup.f0[d][k], qx = setup.dfdx[d][k], qy = setup.dfdy[d][k];
       }
       const double twist = sx * qy - qx * sy;
-      for (int n = 0; n < kBlockSize; ++n) {
+      for (int n = 0; n < L::kSide; ++n) {
         const double gx = (sx * q - qx * s + twist * (c.dy + n)) * size;
         const double gy = (sy * q - qy * s - twist * (c.dx + n)) * size;
         along_x[n] += gx * gx;
@@ -69,17 +69,17 @@ struct Lambda {
       v.slot[kLambda] = once.lambda;
       return;
     }
-    v.slot[kLambda] = HalfLog2(DemoteGroup(DF(), SquareOfRho(once, i)));
+    v.slot[kLambda] = HalfLog2(DemoteGroup(DF(), SquareOfRho<L>(once, i)));
   }
 
   // Where the divisor is not constant.
-  template <class Terms>
-  static HWY_INLINE VD SquareOfRho(const Terms& once, int i) {
+  template <class L>
+  static HWY_INLINE VD SquareOfRho(const Once<L>& once, int i) {
     constexpr int kParts = BlockPlaneDouble::kParts;
     VD rho2 = once.divisor.At(i);
     for (int p = 0; p < kDoubleParts; ++p) {
-      const auto row = hn::Set(DD(), once.along_x[i / kBlockSize + p / kParts]);
-      const auto columns = hn::Load(DD(), once.along_y + i % kBlockSize + p % kParts * kDoubleLanes);
+      const auto row = hn::Set(DD(), once.along_x[L::Row(i) + p / kParts]);
+      const auto columns = hn::Load(DD(), once.along_y + L::Column(i) + p % kParts * kDoubleLanes);
       const auto q2 = hn::Mul(rho2.part[p], rho2.part[p]);
       rho2.part[p] = hn::Div(hn::Max(row, columns), hn::Mul(q2, q2));
     }
@@ -104,7 +104,7 @@ struct LambdaExact {
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
     alignas(64) double rho2[kMaxLanes];
     const double constant = once.along_x[0] > once.along_y[0] ? once.along_x[0] : once.along_y[0];
-    StoreWide(once.constant ? SetWide(constant) : Lambda<kProjective>::SquareOfRho(once, i), rho2);
+    StoreWide(once.constant ? SetWide(constant) : Lambda<kProjective>::template SquareOfRho<L>(once, i), rho2);
     for (int j = 0; j < kLanes; ++j) {
       const double held = rho2[j] > 1e-30 ? (rho2[j] < 1e30 ? rho2[j] : 1e30) : 1e-30;
       rho2[j] = 0.5 * ExactLog2(held);

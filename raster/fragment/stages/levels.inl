@@ -1,7 +1,7 @@
 // Lookups that depend on lambda: magnify or minify, which mip level, one level or two (spec 3.8.8, 3.8.9).
 
 struct ChooseLevel {
-  static constexpr bool kKills = false, kPacks = false;
+  static constexpr bool kKills = false, kPacks = false, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
@@ -30,7 +30,7 @@ struct ChooseLevel {
 // kBytes: the draft level's filter.
 template <bool kBytes>
 struct SampleLevels {
-  static constexpr bool kKills = false, kPacks = false;
+  static constexpr bool kKills = false, kPacks = false, kInTiles = true, kOncePerBlock = true;
 
   // Where the lookups of a block read that all fall on one level, or between the same two, and are linear: most blocks
   // are such. Found ahead of all loads, so that lookups overlap.
@@ -44,14 +44,14 @@ struct SampleLevels {
     HWY_INLINE explicit Once(const BlockContext& c) {
       const DF d;
       if (c.live == 0) return;
-      const float key = c.slot[kMipKey][__builtin_ctzll(c.live)];
+      const float key = Keys(c)[__builtin_ctzll(c.live)];
       const VF none = hn::Zero(d);
       VF different = none, blend = none;
       for (int i = 0; i < kBlockPixels; i += kLanes) {
         const MF live = MaskFromBits(c.live >> i & kGroupBits);
-        const VF off = hn::Abs(hn::Sub(hn::Load(d, c.slot[kMipKey] + i), hn::Set(d, key)));
+        const VF off = hn::Abs(hn::Sub(hn::Load(d, Keys(c) + i), hn::Set(d, key)));
         different = hn::Max(different, hn::IfThenElseZero(live, off));
-        blend = hn::Max(blend, hn::IfThenElseZero(live, hn::Load(d, c.slot[kMipBlend] + i)));
+        blend = hn::Max(blend, hn::IfThenElseZero(live, hn::Load(d, c.slot[kMipBlend] + c.first_slot + i)));
       }
       uniform = hn::AllTrue(d, hn::Eq(different, none)) && IsLinear(*c.params, static_cast<int>(key));
       if (!uniform) return;
@@ -62,12 +62,14 @@ struct SampleLevels {
     }
 
    private:
+    static HWY_INLINE const float* Keys(const BlockContext& c) { return c.slot[kMipKey] + c.first_slot; }
     HWY_INLINE void FindPlaces(const BlockContext& c, int n) {
       const DF d;
       const Sampler& sampler = c.params->sampler;
       for (int i = 0; i < kBlockPixels; i += kLanes) {
         const Place place = PlaceOn(c.params->levels[level + n], sampler,
-                                    hn::Load(d, c.slot[kS] + i), hn::Load(d, c.slot[kT] + i));
+                                    hn::Load(d, c.slot[kS] + c.first_slot + i),
+                                    hn::Load(d, c.slot[kT] + c.first_slot + i));
         hn::Store(place.offset, DI(), offset[n] + i);
         hn::Store(place.wu, d, wu[n] + i);
         hn::Store(place.wv, d, wv[n] + i);
@@ -78,10 +80,10 @@ struct SampleLevels {
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
     if (!once.uniform) return LookEach(*c.params, v);
-    LookPlaced(*c.params, once, 0, i, v);
+    LookPlaced(*c.params, once, 0, i % kBlockPixels, v);
     if (!once.blends) return;
     Lanes next = v;
-    LookPlaced(*c.params, once, 1, i, next);
+    LookPlaced(*c.params, once, 1, i % kBlockPixels, next);
     Blend(next, v);
   }
 
