@@ -90,11 +90,15 @@ HWY_INLINE FourPairs LoadFourPairs(const LaneOffsets& offsets, int j, const uint
 #elif HWY_TARGET == HWY_AVX3
 // The same by broadcasts into places: those leave the units that shuffle alone.
 HWY_INLINE __m256 LoadPlaces(const uint32_t* row, int64_t a, int64_t b, int64_t c, int64_t e) {
-  const auto at = [row](int64_t offset) HWY_ATTR { return reinterpret_cast<const double*>(row + offset); };
-  __m256d v = _mm256_castpd128_pd256(_mm_load_sd(at(a)));
-  v = _mm256_mask_broadcastsd_pd(v, 2, _mm_load_sd(at(b)));
-  v = _mm256_mask_broadcastsd_pd(v, 4, _mm_load_sd(at(c)));
-  return _mm256_castpd_ps(_mm256_mask_broadcastsd_pd(v, 8, _mm_load_sd(at(e))));
+  const auto at = [row](int64_t offset) HWY_ATTR {
+    double pair;  // _mm_load_sd would want it aligned
+    __builtin_memcpy(&pair, row + offset, sizeof pair);
+    return _mm_set_sd(pair);
+  };
+  __m256d v = _mm256_castpd128_pd256(at(a));
+  v = _mm256_mask_broadcastsd_pd(v, 2, at(b));
+  v = _mm256_mask_broadcastsd_pd(v, 4, at(c));
+  return _mm256_castpd_ps(_mm256_mask_broadcastsd_pd(v, 8, at(e)));
 }
 HWY_INLINE FourPairs LoadFourPairs(const LaneOffsets& offsets, int j, const uint32_t* low, const uint32_t* high) {
   const int64_t a = offsets[j], b = offsets[j + 1], c = offsets[j + 4], e = offsets[j + 5];
