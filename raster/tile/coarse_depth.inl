@@ -139,8 +139,8 @@ class BlockDepths {
     return hidden;
   }
 
-  // After all pixels of `tested` were tested and written, and those of `nearer` written.
-  HWY_INLINE void Update(uint64_t tested, uint64_t nearer, TileState& state) const {
+  // After pixels of `tested` were tested and written, all those of `whole` among them, and all of `nearer` written.
+  HWY_INLINE void Update(uint64_t tested, uint64_t whole, uint64_t nearer, TileState& state) const {
     const DDi d;
     for (int row = first_; row <= last_; ++row) {
       for (int i = 0; i < 8; i += kDoubleLanes) {
@@ -150,9 +150,10 @@ class BlockDepths {
         // What is no number bounds nothing.
         const auto greatest = Held(hn::IfThenElse(hn::Eq(far, far), far, hn::Set(DD(), kDepthScale)));
         const auto low = Load(state.depth_min + block), high = Load(state.depth_max + block);
-        const auto is_nearer = MaskOfBits(d, nearer >> block), is_tested = MaskOfBits(d, tested >> block);
+        const auto is_nearer = MaskOfBits(d, nearer >> block), is_tested = MaskOfBits(d, tested >> block),
+                   is_whole = MaskOfBits(d, whole >> block);
         const auto new_low = hn::IfThenElse(is_tested, hn::Min(low, least), low);
-        const auto new_high = hn::IfThenElse(is_tested, hn::Min(high, greatest), high);
+        const auto new_high = hn::IfThenElse(is_whole, hn::Min(high, greatest), high);
         Store(hn::IfThenElse(is_nearer, least, new_low), state.depth_min + block);
         Store(hn::IfThenElse(is_nearer, greatest, new_high), state.depth_max + block);
       }

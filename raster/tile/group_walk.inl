@@ -263,11 +263,9 @@ struct BlockMasks {
 };
 #endif
 
-// A triangle larger than a window. `collects`: RunWholeBlocks can take blocks.
+// A triangle larger than a window. `collects`: RunCoveredBlocks can take blocks.
 void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool collects) {
   const SetupBatch& s = t.setup;
-  if (collects && !t.masks_blocks && TriangleWalk(s, lane).CoversTile())
-    return TakeWholeBlocks(t, lane, ~uint64_t{0}, stages);
   const GroupWalk walk(s, lane);
   const BlockMasks masks(walk, s, lane);
   uint64_t touched = masks.touched;
@@ -292,4 +290,35 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
   if (list.count == 0) return;
   RunGroups(t, lane, list, touched, stages);
   if (covered != 0 && t.program->depth_pass_lowers) LowerDepthMax(t, lane, covered);
+}
+
+// A triangle whose program takes the blocks of a tile's row in turn.
+void WalkRows(TileContext& t, int lane, const BlockProgram& stages, bool packs) {
+  const SetupBatch& s = t.setup;
+  const GroupWalk walk(s, lane);
+  const BlockMasks found(walk, s, lane);
+  if (found.touched == 0) return;
+  uint64_t masks[kTileBlocks] = {};
+  CoveredBlocks blocks{0, 0, masks};
+  uint64_t few = 0;
+  for (uint64_t todo = found.touched; todo != 0; todo &= todo - 1) {
+    const int block = __builtin_ctzll(todo);
+    const uint64_t mask = t.masks_blocks ? found.Of(block) & BlockMask(t, block) : found.Of(block);
+    if (mask == 0) continue;
+    masks[block] = mask;
+    const uint64_t bit = todo & -todo;
+    if (mask == ~uint64_t{0})
+      blocks.whole |= bit;
+    else if (packs && __builtin_popcountll(mask) <= kPackAtMost)
+      few |= bit;
+    else
+      blocks.parts |= bit;
+  }
+  // What waits for these blocks' pixels was drawn before and is stored before.
+  if ((t.packer.blocks & blocks.All()) != 0) FlushPacked(t);
+  if (blocks.All() != 0) RunCoveredBlocks(t, lane, blocks, stages);
+  for (; few != 0; few &= few - 1) {
+    const int block = __builtin_ctzll(few);
+    TestAndPack(t, lane, block % 8 * kBlockSize, block / 8 * kBlockSize, masks[block], few & -few);
+  }
 }

@@ -244,7 +244,7 @@ HWY_NOINLINE void NoteFilled(TileContext& t, int lane, uint64_t blocks) {
 void TakeWholeBlocks(TileContext& t, int lane, uint64_t covered, const BlockProgram& stages) {
   if (covered == 0) return;
   if ((t.packer.blocks & covered) != 0) FlushPacked(t);
-  RunWholeBlocks(t, lane, covered, stages);
+  RunCoveredBlocks(t, lane, {covered}, stages);
   if (HWY_UNLIKELY(t.notes != nullptr)) NoteFilled(t, lane, covered);
 }
 
@@ -259,6 +259,11 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
       stages.whole.fills || (t.notes == nullptr && (stages.whole.exists() || stages.nearer.exists()));
   if (stages.groups != nullptr && t.notes == nullptr && t.block.meter == nullptr) {
     WalkGroups(t, lane, stages, collects);
+    t.even = false;
+    return;
+  }
+  if (stages.whole.row_count != 0 && t.notes == nullptr && t.block.meter == nullptr) {
+    WalkRows(t, lane, stages, packs);
     t.even = false;
     return;
   }

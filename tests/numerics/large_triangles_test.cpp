@@ -208,5 +208,33 @@ TEST(LargeTriangles, PartOfABlockIsClearedNearer) {
   EXPECT_EQ(picture.depth_at(2, 2), 8388608u);
 }
 
+// Blocks that a textured triangle covers in part keep, in the rest, what they were cleared to.
+TEST(LargeTriangles, PartsOfTexturedBlocksKeepWhatWasCleared) {
+  const auto draw = [](bool fuse) {
+    Random random(5);
+    TestTexture texture{BaseFormat::rgb};
+    for (int size = 32; size > 0; size /= 2) texture.add_noise(random, size, size);
+    Canvas canvas(kWidth, kHeight, 1, ColorFormat::rgba8, fuse);
+    canvas.clear({0.1f, 0.2f, 0.3f, 0.4f}, 1);
+    DrawState state = plain_state(kViewport, kViewport);
+    state.texture.view = texture.view(sampler_of(Filter::linear, Wrap::repeat));
+    std::vector<Vertex> corners;
+    constexpr std::array<std::array<int64_t, 2>, 3> kCorners{{{5, 9}, {188, 31}, {70, 160}}};
+    for (const auto& at : kCorners) {
+      corners.push_back(snapped_vertex(at[0] * 256, at[1] * 256, kViewport, 0, {1, 1, 1, 1}));
+      corners.back().s = static_cast<float>(at[0]) / 32, corners.back().t = static_cast<float>(at[1]) / 32;
+    }
+    canvas.draw(state, Primitive::triangles, corners);
+    return canvas.read();
+  };
+  for (const std::string& isa : isa_levels()) {
+    const IsaScope scope(isa);
+    const Picture picture = draw(true);
+    EXPECT_EQ(first_difference(draw(false), picture), "") << isa;
+    EXPECT_EQ(picture.pixel(4, 4)[2], 77) << isa;
+    EXPECT_NE(picture.pixel(80, 60)[3], 102) << isa;
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::test
