@@ -266,6 +266,8 @@ struct BlockMasks {
 // A triangle larger than a window. `collects`: RunCoveredBlocks can take blocks.
 void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool collects) {
   const SetupBatch& s = t.setup;
+  if (collects && !t.masks_blocks && TriangleWalk(s, lane).CoversTile())
+    return TakeWholeBlocks(t, lane, ~uint64_t{0}, stages);
   const GroupWalk walk(s, lane);
   const BlockMasks masks(walk, s, lane);
   uint64_t touched = masks.touched;

@@ -65,8 +65,9 @@ TEST(Color, NothingIsBrighterThanWhite) {
   std::vector<Vertex> triangles;
   for (int i = 0; i < 6000; ++i) {
     // Needles 3 to 6 sub-pixels wide, dark along one side.
-    const double x = random.real(-1, 1), y = random.real(-1, 1), angle = random.real(0, 6.25);
-    const double along = 40.0 / kSize, across = random.real(3, 6) / 256 * 2 / kSize;
+    const auto real = [&random](float low, float high) { return double(random.real(low, high)); };
+    const double x = real(-1, 1), y = real(-1, 1), angle = real(0, 6.25);
+    const double along = 40.0 / kSize, across = real(3, 6) / 256 * 2 / kSize;
     const double dx = std::cos(angle), dy = std::sin(angle);
     const auto corner = [&](double u, double v, float bright) {
       triangles.push_back({float(x + u * dx - v * dy), float(y + u * dy + v * dx), 0, 1, {bright, bright, bright, 1}});
