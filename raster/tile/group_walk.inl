@@ -297,6 +297,8 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
 // A triangle whose program takes the blocks of a tile's row in turn.
 void WalkRows(TileContext& t, int lane, const BlockProgram& stages, bool packs) {
   const SetupBatch& s = t.setup;
+  if (!t.masks_blocks && TriangleWalk(s, lane).CoversTile())
+    return TakeWholeBlocks(t, lane, ~uint64_t{0}, stages);
   const GroupWalk walk(s, lane);
   const BlockMasks found(walk, s, lane);
   if (found.touched == 0) return;
