@@ -141,6 +141,9 @@ MUTATIONS = [
              "texture_test:TextureRepeat.JustBelowNoughtIsTheLastTexel"),
     Mutation("NEAREST at a texel's edge takes the texel before", STAGES + "sample.inl",
              "TruncateInRange(hn::Add(scaled, hn::Set(d, 0.5f)))", "TruncateInRange(hn::Sub(scaled, hn::Set(d, 0.5f)))",
+             "texture_test:TextureNearest.TexelEdgesPickTheTexelAboveThem"),
+    Mutation("NEAREST of a repeated texture takes the texel before, at a texel's edge", STAGES + "sample.inl",
+             "hn::Add(hn::Mul(s, scale), hn::Set(DF(), 0.5f))", "hn::Sub(hn::Mul(s, scale), hn::Set(DF(), 0.5f))",
              "hard_cases:texture_seams"),
 
     # ---- lines and points
@@ -149,7 +152,7 @@ MUTATIONS = [
              "lines_test:DiamondExit.AllEndpointPairsOnASixteenthGrid"),
     Mutation("a line ends with its last pixel", "raster/tile/lines.inl",
              "return hn::AndNot(ends, reaches);", "return hn::AndNot(hn::AndNot(ends, ends), reaches);",
-             "hard_cases:line_phases,line_loops"),
+             "lines_test:DiamondExit.*"),
     Mutation("stipple starts at its second bit", "raster/tile/cover_line.cpp",
              "(stipple.start + index) / uint32_t(stipple.repeat)", "(stipple.start + index + 1) / uint32_t(stipple.repeat)",
              "shapes_test:StippledLines.*"),

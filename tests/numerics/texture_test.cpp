@@ -387,17 +387,20 @@ TEST(TextureRepeat, JustBelowNoughtIsTheLastTexel) {
   Random random(8);
   TestTexture texture;
   texture.add_noise(random, kTexels, 1);
-  const Sampler sampler = sampler_of(Filter::nearest, Wrap::repeat);
-  const oracle::Texture reference = texture.reference(sampler);
   std::vector<Vertex> quad = snapped_quad(128, 0, 128 + 256 * kAcross, 4 * 256, kSize);
   for (Vertex& v : quad) v.x += float(2 * 0.0015 / kSize);  // pixels, less than half a sub-pixel
   quad[1].s = quad[2].s = 1;
-  Canvas canvas(kSize, 4);
-  DrawState state = replace_state(kSize, texture.view(sampler));
-  canvas.draw(state, Primitive::quads, quad);
-  // Sixteen texels a pixel: 0.024 of one to the left of it.
-  EXPECT_EQ(bytes_at(canvas.read(), 0, 1), texel_bytes(reference.levels[0], kTexels - 1, 0));
-  EXPECT_EQ(bytes_at(canvas.read(), 1, 1), texel_bytes(reference.levels[0], kTexels / kAcross - 1, 0));
+  // Repeated both ways, and one way only.
+  for (Wrap wrap_t : {Wrap::repeat, Wrap::clamp_to_edge}) {
+    Sampler sampler = sampler_of(Filter::nearest, Wrap::repeat);
+    sampler.wrap_t = wrap_t;
+    const oracle::Texture reference = texture.reference(sampler);
+    Canvas canvas(kSize, 4);
+    canvas.draw(replace_state(kSize, texture.view(sampler)), Primitive::quads, quad);
+    // Sixteen texels a pixel: 0.024 of one to the left of it.
+    EXPECT_EQ(bytes_at(canvas.read(), 0, 1), texel_bytes(reference.levels[0], kTexels - 1, 0));
+    EXPECT_EQ(bytes_at(canvas.read(), 1, 1), texel_bytes(reference.levels[0], kTexels / kAcross - 1, 0));
+  }
 }
 
 TEST(TextureView, KeepsItsTexels) {
