@@ -158,12 +158,7 @@ class Assembler {
     const auto source = uint32_t(segment_.plane_sources.size());
     segment_.plane_sources.push_back(planes);
     bool used = false;
-    for (int i = 1; i + 1 < polygon.count; ++i) {
-      const CutTriangle cut{{polygon.x[0], polygon.x[i], polygon.x[i + 1]},
-                            {polygon.y[0], polygon.y[i], polygon.y[i + 1]},
-                            source};
-      used |= append_cut(cut, back);
-    }
+    for (int i = 0; i < polygon.triangle_count; ++i) used |= append_cut(polygon.triangle_at(i, source), back);
     if (!used) segment_.plane_sources.pop_back();
   }
 

@@ -107,15 +107,91 @@ int lowest(const Point* p, int count) {
   return best;
 }
 
-// The lowest corner, or else the next one round that serves. The first choice does not depend on the order
-// the corners came in; the others only matter where snapping has bent the polygon.
+// The lowest corner, or else the next one round that serves; -1: none does. The first choice does not depend
+// on the order the corners came in; the others only matter where snapping has bent the polygon.
 int choose_apex(const Point* p, int count, int64_t area) {
   const int start = lowest(p, count);
   for (int i = 0; i < count; ++i) {
     const int apex = (start + i) % count;
     if (is_good_apex(p, count, apex, area)) return apex;
   }
-  return start;
+  return -1;
+}
+
+// The corners of a polygon that are still to be cut off, as indices.
+struct Rest {
+  const Point* p;
+  int64_t sign;  // of the whole's area
+  uint8_t at[kMaxPolygonVertices];
+  int count;
+
+  const Point& corner(int i) const { return p[at[(i + count) % count]]; }
+  // Twice the area at corner i; positive if it turns as the whole does.
+  int64_t turn(int i) const { return sign * cross(corner(i - 1), corner(i), corner(i + 1)); }
+  bool is_free(int i) const {
+    const Point &a = corner(i - 1), &b = corner(i), &c = corner(i + 1);
+    for (int k = 0; k < count; ++k) {
+      const Point& q = corner(k);
+      if (q == a || q == b || q == c) continue;
+      if (sign * cross(a, b, q) >= 0 && sign * cross(b, c, q) >= 0 && sign * cross(c, a, q) >= 0)
+        return false;
+    }
+    return true;
+  }
+  // A corner to cut off: flat, or an ear, with no other corner in its triangle. -1: edges cross.
+  int ear() const {
+    for (int i = 0; i < count; ++i)
+      if (turn(i) == 0 || (turn(i) > 0 && is_free(i))) return i;
+    return -1;
+  }
+  int flattest() const {
+    int best = 0;
+    for (int i = 1; i < count; ++i)
+      if (std::abs(turn(i)) < std::abs(turn(best))) best = i;
+    return best;
+  }
+};
+
+void add_triangle(Clipper::Polygon& out, int a, int b, int c) {
+  uint8_t(&t)[3] = out.triangle[out.triangle_count++];
+  t[0] = uint8_t(a), t[1] = uint8_t(b), t[2] = uint8_t(c);
+}
+
+void fan(int count, int apex, Clipper::Polygon& out) {
+  for (int i = 1; i + 1 < count; ++i) add_triangle(out, apex, (apex + i) % count, (apex + i + 1) % count);
+}
+
+// Whether one of the edges of triangle `s` has all of triangle `t` outside.
+bool parts(const Point* p, int64_t sign, const uint8_t (&s)[3], const uint8_t (&t)[3]) {
+  for (int i = 0; i < 3; ++i) {
+    const Point &a = p[s[i]], &b = p[s[(i + 1) % 3]];
+    if (std::all_of(t, t + 3, [&](uint8_t k) { return sign * cross(a, b, p[k]) <= 0; })) return true;
+  }
+  return false;
+}
+
+bool overlaps_an_earlier(const Point* p, int64_t sign, const Clipper::Polygon& out) {
+  const auto& last = out.triangle[out.triangle_count - 1];
+  for (int i = 0; i + 1 < out.triangle_count; ++i)
+    if (!parts(p, sign, out.triangle[i], last) && !parts(p, sign, last, out.triangle[i])) return true;
+  return false;
+}
+
+// Where no corner serves: ear by ear. Of edges that cross, by a sub-pixel, what turns back is left out, and
+// what would be drawn twice.
+void cut_ears(const Point* p, int count, int64_t area, Clipper::Polygon& out) {
+  Rest rest{p, area > 0 ? 1 : -1, {}, count};
+  for (int i = 0; i < count; ++i) rest.at[i] = uint8_t(i);
+  while (rest.count >= 3) {
+    const int ear = rest.ear(), corner = ear >= 0 ? ear : rest.flattest();
+    if (ear >= 0 && rest.turn(ear) > 0) {
+      add_triangle(out, rest.at[(ear + rest.count - 1) % rest.count], rest.at[ear],
+                   rest.at[(ear + 1) % rest.count]);
+      if (overlaps_an_earlier(p, rest.sign, out)) --out.triangle_count;
+    }
+    std::copy(rest.at + corner + 1, rest.at + rest.count, rest.at + corner);
+    --rest.count;
+  }
 }
 
 int drop_repeated(Point* p, int count) {
@@ -135,6 +211,7 @@ Clipper::Clipper(const DrawRecord& draw)
 void Clipper::clip_triangle(const uint32_t v[3], unsigned outcodes, Polygon& out) const {
   out.count = 0;
   out.area = 0;
+  out.triangle_count = 0;
   ClipPlane planes[kClipPlanes];
   make_clip_planes(window_, planes);
   CornerList lists[2];
@@ -166,12 +243,13 @@ void Clipper::clip_triangle(const uint32_t v[3], unsigned outcodes, Polygon& out
   if (count < 3) return;
   out.area = polygon_area(p, count);
   if (out.area == 0) return;
-  const int apex = choose_apex(p, count, out.area);
   out.count = count;
-  for (int i = 0; i < count; ++i) {
-    out.x[i] = p[(apex + i) % count].x;
-    out.y[i] = p[(apex + i) % count].y;
-  }
+  for (int i = 0; i < count; ++i) out.x[i] = p[i].x, out.y[i] = p[i].y;
+  const int apex = choose_apex(p, count, out.area);
+  if (apex >= 0)
+    fan(count, apex, out);
+  else
+    cut_ears(p, count, out.area, out);
 }
 
 namespace {

@@ -21,8 +21,15 @@ class Clipper {
   struct Polygon {
     int count = 0;                   // 0: nothing is left
     int64_t area = 0;                // twice the signed area, 16.8 squared; > 0 is counter-clockwise
-    int32_t x[kMaxPolygonVertices];  // 16.8; corner 0 is the apex of a fan in which no triangle turns the
-    int32_t y[kMaxPolygonVertices];  // other way than the whole
+    int32_t x[kMaxPolygonVertices];  // 16.8
+    int32_t y[kMaxPolygonVertices];
+    int triangle_count = 0;
+    uint8_t triangle[kMaxPolygonVertices - 2][3];  // corners; none turns the other way than the whole
+
+    CutTriangle triangle_at(int i, uint32_t source) const {
+      const uint8_t(&t)[3] = triangle[i];
+      return {{x[t[0]], x[t[1]], x[t[2]]}, {y[t[0]], y[t[1]], y[t[2]]}, source};
+    }
   };
 
   // Cuts the triangle of vertices v[0..2]; `outcodes` is the union of theirs, user planes included.

@@ -125,10 +125,8 @@ class ShapeAssembler {
     planes.provoking = t.v[provoking];
     const auto source = uint32_t(segment_.plane_sources.size());
     segment_.plane_sources.push_back(planes);
-    for (int i = 1; i + 1 < polygon.count; ++i) {
-      const CutTriangle cut{{polygon.x[0], polygon.x[i], polygon.x[i + 1]},
-                            {polygon.y[0], polygon.y[i], polygon.y[i + 1]},
-                            source};
+    for (int i = 0; i < polygon.triangle_count; ++i) {
+      const CutTriangle cut = polygon.triangle_at(i, source);
       if (triangle_area(cut.x, cut.y) == 0) continue;
       segment_.cut_triangles.push_back(cut);
       bin_filled({{uint32_t(segment_.cut_triangles.size() - 1), 0, 0}, kind(), true, back, 0}, cut.x, cut.y);

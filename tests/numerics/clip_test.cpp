@@ -225,10 +225,12 @@ TEST(Clip, ABentRemainderIsDrawnOnce) {
     const int64_t dx = random.integer(-40 * 256, 40 * 256), dy = random.integer(-40 * 256, 40 * 256);
     const Color one{1.0f / 255, 1.0f / 255, 1.0f / 255, 1};
     const auto corner = [&](int64_t part, float z) {
-      return snapped_vertex(x + dx * part / 16 + random.integer(-3, 3), y + dy * part / 16 + random.integer(-3, 3), 64, z, one);
+      const int64_t aside = random.integer(-3, 3), up = random.integer(-3, 3);
+      return snapped_vertex(x + dx * part / 16 + aside, y + dy * part / 16 + up, 64, z, one);
     };
-    Vertex v[3] = {corner(0, random.real(-4, 0)), corner(random.integer(1, 15), random.real(-2, 2)),
-                   corner(16, random.real(0, 4))};
+    const int64_t middle = random.integer(1, 15);
+    const float z[3] = {random.real(-4, 0), random.real(-2, 2), random.real(0, 4)};
+    Vertex v[3] = {corner(0, z[0]), corner(middle, z[1]), corner(16, z[2])};
     DrawState state = plain_state(64, 64);
     state.blend = {true, BlendFactor::one, BlendFactor::one};
     Canvas canvas(64, 64);
