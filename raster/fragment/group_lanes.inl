@@ -2,11 +2,6 @@
 // a plane needs is loaded once a primitive; a value is (f0 + dfdy * dy) + dfdx * dx as in lanes.inl, with the
 // same bits. Pixels count from the tile's first, block by block.
 
-HWY_INLINE int ColumnInTile(int i) { return i / kBlockPixels % 8 * kBlockSize + i % kBlockSize; }
-HWY_INLINE int RowInTile(int i) {
-  return i / (8 * kBlockPixels) * kBlockSize + i % kBlockPixels / kBlockSize;
-}
-
 alignas(64) inline constexpr float kColumnOfLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) inline constexpr float kRowOfLane[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
 

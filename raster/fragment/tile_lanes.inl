@@ -6,16 +6,17 @@
 
 inline constexpr int kBlocksPerRow = kTileSize / kBlockSize;
 
-// The tile's pixel row of pixel `i`, and which of the vectors across the tile its group takes.
-HWY_INLINE int TileRow(int i) {
+// Row and column in the tile of pixel `i`, and which of the vectors across the tile its group takes.
+HWY_INLINE int RowInTile(int i) {
   return i / (kTileSize * kBlockSize) * kBlockSize + i % kBlockPixels / kBlockSize;
 }
-HWY_INLINE int TileColumn(int i) {
+HWY_INLINE int ColumnInTile(int i) { return i / kBlockPixels % kBlocksPerRow * kBlockSize + i % kBlockSize; }
+HWY_INLINE int VectorAcrossTile(int i) {
   return i / kBlockPixels % kBlocksPerRow * kGroupsPerRow + i % kBlockSize / kLanes % kGroupsPerRow;
 }
 
-// The values of BlockPlane: the same operations on the same numbers. Each plane is worked out once a triangle, and out of
-// line: every kernel has several.
+// The values of BlockPlane: the same operations on the same numbers. Each plane is worked out once a
+// triangle, and out of line: every kernel has several.
 HWY_NOINLINE void FillTilePlane(const BlockContext& c, int plane) {
   TilePlanes& tables = *c.planes;
   TilePlanes::Single& table = tables.single[plane];
@@ -34,7 +35,8 @@ HWY_NOINLINE void FillTilePlane(const BlockContext& c, int plane) {
   const auto f0 = hn::Set(dr, s.f0_f[plane][c.lane]), dfdy = hn::Set(dr, s.dfdy_f[plane][c.lane]);
   const auto first = hn::Iota(dr, 0);
   for (int n = tables.begin; n < tables.end; n += step) {
-    const auto dy = hn::Add(hn::Set(dr, static_cast<float>(c.dy)), hn::Add(first, hn::Set(dr, static_cast<float>(n))));
+    const auto dy =
+        hn::Add(hn::Set(dr, static_cast<float>(c.dy)), hn::Add(first, hn::Set(dr, static_cast<float>(n))));
     hn::Store(hn::Add(f0, hn::Mul(dfdy, dy)), dr, table.row + n);
   }
   if constexpr (kRowsPerGroup > 1)
@@ -49,9 +51,11 @@ struct TilePlane {
   }
   HWY_INLINE VF At(int i) const {
     const DF d;
-    const VF across = hn::Load(d, table->across + TileColumn(i) * kLanes);
-    if constexpr (kRowsPerGroup > 1) return hn::Add(hn::Load(d, table->rows + TileRow(i) * kBlockSize), across);
-    else return hn::Add(hn::Set(d, table->row[TileRow(i)]), across);
+    const VF across = hn::Load(d, table->across + VectorAcrossTile(i) * kLanes);
+    if constexpr (kRowsPerGroup > 1)
+      return hn::Add(hn::Load(d, table->rows + RowInTile(i) * kBlockSize), across);
+    else
+      return hn::Add(hn::Set(d, table->row[RowInTile(i)]), across);
   }
 };
 
@@ -87,8 +91,8 @@ struct TilePlaneDouble {
     const DD d;
     VD v;
     for (int p = 0; p < kDoubleParts; ++p) {
-      const double* across = table->across + (TileColumn(i) * kParts + p % kParts) * kDoubleLanes;
-      v.part[p] = hn::Add(hn::Set(d, table->row[TileRow(i) + p / kParts]), hn::Load(d, across));
+      const double* across = table->across + (VectorAcrossTile(i) * kParts + p % kParts) * kDoubleLanes;
+      v.part[p] = hn::Add(hn::Set(d, table->row[RowInTile(i) + p / kParts]), hn::Load(d, across));
     }
     return v;
   }
@@ -98,8 +102,8 @@ struct TilePlaneDouble {
 template <bool kLevelAlpha>
 struct TileLanes : BlockLanes {
   static constexpr int kSide = kTileSize;
-  static HWY_INLINE int Row(int i) { return TileRow(i); }
-  static HWY_INLINE int Column(int i) { return i / kBlockPixels % kBlocksPerRow * kBlockSize + i % kBlockSize; }
+  static HWY_INLINE int Row(int i) { return RowInTile(i); }
+  static HWY_INLINE int Column(int i) { return ColumnInTile(i); }
   using Plane = TilePlane;
   using PlaneOfAlpha = std::conditional_t<kLevelAlpha, LevelPlane, TilePlane>;
   using PlaneDouble = TilePlaneDouble;
