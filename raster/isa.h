@@ -15,37 +15,23 @@ Isa current_isa();
 
 }  // namespace halfspace::raster
 
-// The body of a function after the HWY_ONCE guard: returns N_<level>::EXPRESSION for the level in use, say the value
-// of a call (`ShadeVertices()`) or, with HALFSPACE_SELECT_FUNCTION, the address of a function.
+// The body of a function after the HWY_ONCE guard: returns N_<level>::EXPRESSION for the level in use, say
+// the value of a call (`ShadeVertices()`) or, with HALFSPACE_SELECT_FUNCTION, the address of a function.
 #if defined(__x86_64__)
-#if HALFSPACE_WITH_AVX512
-#define HALFSPACE_CASE_AVX512(PREFIX, EXPRESSION) \
-  case ::halfspace::raster::Isa::avx512:          \
-    return PREFIX N_AVX3::EXPRESSION;
-#else
-#define HALFSPACE_CASE_AVX512(PREFIX, EXPRESSION)
-#endif
-#if HALFSPACE_WITH_AVX2
-#define HALFSPACE_CASE_AVX2(PREFIX, EXPRESSION) \
-  case ::halfspace::raster::Isa::avx2:          \
-    return PREFIX N_AVX2::EXPRESSION;
-#else
-#define HALFSPACE_CASE_AVX2(PREFIX, EXPRESSION)
-#endif
-#if HALFSPACE_WITH_SSE4
-#define HALFSPACE_CASE_SSE4(PREFIX, EXPRESSION) \
-  case ::halfspace::raster::Isa::sse4:          \
-    return PREFIX N_SSE4::EXPRESSION;
-#else
-#define HALFSPACE_CASE_SSE4(PREFIX, EXPRESSION)
-#endif
-#define HALFSPACE_SELECT_LEVEL(PREFIX, EXPRESSION) \
-  switch (::halfspace::raster::current_isa()) {    \
-    HALFSPACE_CASE_AVX512(PREFIX, EXPRESSION)      \
-    HALFSPACE_CASE_AVX2(PREFIX, EXPRESSION)        \
-    HALFSPACE_CASE_SSE4(PREFIX, EXPRESSION)        \
-    default:                                       \
-      return PREFIX N_SCALAR::EXPRESSION;          \
+// Nothing for a level that the build leaves out: HALFSPACE_WITH_* is pasted as 0 or 1.
+#define HALFSPACE_CASE_0(LEVEL, EXPRESSION)
+#define HALFSPACE_CASE_1(LEVEL, EXPRESSION) \
+  case ::halfspace::raster::Isa::LEVEL:     \
+    return EXPRESSION;
+#define HALFSPACE_CASE_IF(WITH, LEVEL, EXPRESSION) HALFSPACE_CASE_##WITH(LEVEL, EXPRESSION)
+#define HALFSPACE_CASE(WITH, LEVEL, EXPRESSION) HALFSPACE_CASE_IF(WITH, LEVEL, EXPRESSION)
+#define HALFSPACE_SELECT_LEVEL(PREFIX, EXPRESSION)                           \
+  switch (::halfspace::raster::current_isa()) {                              \
+    HALFSPACE_CASE(HALFSPACE_WITH_AVX512, avx512, PREFIX N_AVX3::EXPRESSION) \
+    HALFSPACE_CASE(HALFSPACE_WITH_AVX2, avx2, PREFIX N_AVX2::EXPRESSION)     \
+    HALFSPACE_CASE(HALFSPACE_WITH_SSE4, sse4, PREFIX N_SSE4::EXPRESSION)     \
+    default:                                                                 \
+      return PREFIX N_SCALAR::EXPRESSION;                                    \
   }
 #elif defined(__aarch64__)
 #define HALFSPACE_SELECT_LEVEL(PREFIX, EXPRESSION) return PREFIX N_NEON::EXPRESSION;
