@@ -1,48 +1,15 @@
 #include "compare/bar_chart.h"
 
 #include <algorithm>
-#include <cstdio>
 
-#include "compare/difference_text.h"
-#include "compare/html.h"
+#include "compare/formatted.h"
+#include "compare/svg.h"
 
 namespace halfspace::compare {
 namespace {
 
-constexpr double kLabelWidth = 190, kPlotWidth = 480, kValueWidth = 90;
-constexpr double kBarHeight = 18, kBarStep = 28, kTop = 56;
-
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
-
-std::string text_at(double x, double y, const char* anchor, const std::string& text) {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" +
-         escape_html(text) + "</text>\n";
-}
-
-std::string line(double x, double y0, double y1, const char* style) {
-  return "<line x1=\"" + number(x) + "\" x2=\"" + number(x) + "\" y1=\"" + number(y0) + "\" y2=\"" +
-         number(y1) + "\" " + style + "/>\n";
-}
-
-std::string bar_svg(const Bar& bar, double y, double scale, const std::string& unit) {
-  const double length = bar.value * scale;
-  std::string svg = text_at(kLabelWidth - 10, y + kBarHeight - 5, "end", bar.label);
-  svg += "<rect x=\"" + number(kLabelWidth) + "\" y=\"" + number(y) + "\" width=\"" + number(length) +
-         "\" height=\"" + number(kBarHeight) + "\" rx=\"2\" fill=\"" + (bar.good ? "#4c8bf5" : "#d9534f") +
-         "\"/>\n";
-  // Not under the target's mark, when that stands just behind the bar.
-  const double mark = bar.target * scale;
-  const double end = mark > length && mark < length + 50 ? mark : length;
-  svg += text_at(kLabelWidth + end + 6, y + kBarHeight - 5, "start", short_number(bar.value) + unit);
-  if (bar.target > 0)
-    svg += line(kLabelWidth + bar.target * scale, y - 3, y + kBarHeight + 3,
-                "stroke=\"#8a8f95\" stroke-width=\"2\"");
-  return svg;
-}
+constexpr double kLabelWidth = 206, kPlotWidth = 480, kValueWidth = 94;
+constexpr double kBarHeight = 18, kBarStep = 26, kTop = 84;
 
 double largest(const BarChart& chart) {
   double value = std::max(chart.reference, 1e-9);
@@ -50,26 +17,38 @@ double largest(const BarChart& chart) {
   return value;
 }
 
+bool has_targets(const BarChart& chart) {
+  return std::any_of(chart.bars.begin(), chart.bars.end(), [](const Bar& bar) { return bar.target > 0; });
+}
+
+void draw(Svg& svg, const Bar& bar, double y, double scale, const std::string& unit) {
+  const double length = bar.value * scale, words = y + kBarHeight - 5;
+  svg.text(kLabelWidth - 10, words, bar.label, {"end", ink::kText, 13});
+  svg.rect(kLabelWidth, y, length, kBarHeight, bar.good ? ink::kOurs : ink::kOursPale);
+  const double mark = bar.target * scale;
+  if (bar.target > 0)
+    svg.line(kLabelWidth + mark, y - 3, kLabelWidth + mark, y + kBarHeight + 3, ink::kText, 2);
+  // Not under the target's mark, when that stands just behind the bar.
+  const double end = mark > length && mark < length + 50 ? mark : length;
+  svg.text(kLabelWidth + end + 6, words, formatted("%.3g", bar.value) + unit, {"start", ink::kText, 13});
+}
+
 }  // namespace
 
 std::string to_svg(const BarChart& chart) {
   const double scale = kPlotWidth / largest(chart);
   const double height = kTop + kBarStep * static_cast<double>(chart.bars.size()) + 12;
-  const double width = kLabelWidth + kPlotWidth + kValueWidth;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) + "\" height=\"" +
-                    number(height) + "\" viewBox=\"0 0 " + number(width) + " " + number(height) +
-                    "\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n"
-                    // On its own the picture follows the reader's scheme; inside a page, the page's colour.
-                    "<style>svg{color-scheme:light dark}text{fill:currentColor}</style>\n";
-  svg += text_at(0, 18, "start", chart.title);
-  for (size_t i = 0; i < chart.bars.size(); ++i)
-    svg += bar_svg(chart.bars[i], kTop + kBarStep * static_cast<double>(i), scale, chart.unit);
+  Svg svg(kLabelWidth + kPlotWidth + kValueWidth, height);
+  svg.text(16, 26, chart.title, {"start", ink::kText, 16, true});
+  if (has_targets(chart)) svg.text(16, 46, "mark: the target; dark: reached", {"start", ink::kSoft, 12});
   if (chart.reference > 0) {
     const double x = kLabelWidth + chart.reference * scale;
-    svg += line(x, kTop - 8, height - 8, "stroke=\"#8a8f95\" stroke-dasharray=\"4 3\"");
-    svg += text_at(x, kTop - 14, "end", chart.reference_label);
+    svg.line(x, kTop - 8, x, height - 8, ink::kTheirs, 1.5, "4 3");
+    svg.text(x, kTop - 14, chart.reference_label, {"middle", ink::kTheirs, 12});
   }
-  return svg + "</svg>\n";
+  for (size_t i = 0; i < chart.bars.size(); ++i)
+    draw(svg, chart.bars[i], kTop + kBarStep * static_cast<double>(i), scale, chart.unit);
+  return svg.str();
 }
 
 }  // namespace halfspace::compare

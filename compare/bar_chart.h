@@ -21,7 +21,7 @@ struct BarChart {
   std::vector<Bar> bars;
 };
 
-// A self-standing <svg> element; its colours suit light and dark.
+// A whole <svg> element.
 std::string to_svg(const BarChart& chart);
 
 }  // namespace halfspace::compare

@@ -131,7 +131,7 @@ nlohmann::json to_json(const CoresResult& result) {
 }
 
 std::string to_svg(const CoresResult& result) {
-  CurveChart ideal{"Times as fast as one core, simulated", "cores", "", {}};
+  CurveChart ideal{"Times as fast as one core, simulated", "cores", "x", {}};
   std::vector<CurveChart> charts;
   constexpr size_t kCurves = 3;  // a chart
   for (size_t i = 0; i < result.rows.size(); ++i) {

@@ -114,9 +114,9 @@ nlohmann::json to_json(const ScaleResult& result) {
 }
 
 std::string to_svg(const ScaleCurve& curve) {
-  CurveChart time{"Time of a frame", curve.what, "ms", {{"Halfspace", {}}, {"llvmpipe", {}}}};
+  CurveChart time{"Time of a frame", curve.what, " ms", {{"Halfspace", {}}, {"llvmpipe", {}}}};
   CurveChart memory{
-      "Memory beyond the application's", curve.what, "MB", {{"Halfspace", {}}, {"llvmpipe", {}}}};
+      "Memory beyond the application's", curve.what, " MB", {{"Halfspace", {}}, {"llvmpipe", {}}}};
   for (const ScalePoint& point : curve.points) {
     time.curves[0].points.emplace_back(point.amount, point.ours.cpu_ms.median);
     time.curves[1].points.emplace_back(point.amount, point.theirs.cpu_ms.median);

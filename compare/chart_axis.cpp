@@ -35,6 +35,10 @@ std::vector<Tick> LogAxis::ticks(double base, const char* unit) const {
 std::string tick_label(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g", value);
+  if (value >= 1e6)
+    std::snprintf(text, sizeof text, "%g M", value * 1e-6);
+  else if (value >= 1e3 && std::fmod(value, 1e3) == 0)
+    std::snprintf(text, sizeof text, "%g,000", value * 1e-3);
   if (value != 0 && std::abs(value) < 1e-4) std::snprintf(text, sizeof text, "%.0e", value);
   return text;
 }

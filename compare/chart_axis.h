@@ -28,7 +28,7 @@ class LogAxis {
   double lowest_, highest_, from_, to_, zero_place_;
 };
 
-// "0.25", "1", "100": no more digits than are needed.
+// "0.25", "1", "10,000", "2 M": no more digits than are needed.
 std::string tick_label(double value);
 
 }  // namespace halfspace::compare

@@ -13,11 +13,12 @@ struct Curve {
 };
 
 struct CurveChart {
-  std::string title, x_label, y_label;
+  std::string title, x_label;
+  std::string y_unit;  // behind the numbers of that axis
   std::vector<Curve> curves;
 };
 
-// Charts side by side in one self-standing <svg> element; its colours suit light and dark.
+// Charts side by side in one whole <svg> element.
 std::string to_svg(const std::vector<CurveChart>& charts);
 
 }  // namespace halfspace::compare

@@ -10,6 +10,7 @@ inline constexpr const char* kText = "#1d1f21";
 inline constexpr const char* kSoft = "#61666c";
 inline constexpr const char* kGrid = "#dfe1e4";
 inline constexpr const char* kOurs = "#2f6fde";
+inline constexpr const char* kOursPale = "#a8c3ef";
 inline constexpr const char* kTheirs = "#b9772c";
 inline constexpr const char* kFront = "#1a7f37";
 }  // namespace ink
