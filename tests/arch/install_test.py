@@ -107,7 +107,7 @@ def check_by_pkg_config(prefix, work, compiler):
 
 def check_by_find_package(prefix, work, cmake, compiler):
     (work / "CMakeLists.txt").write_text(CMAKE_PROJECT)
-    run(cmake, "-S", work, "-B", work / "build", f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_C_COMPILER={compiler}")
+    run(cmake, "-G", "Ninja", "-S", work, "-B", work / "build", f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_C_COMPILER={compiler}")
     run(cmake, "--build", work / "build")
     check_client(work / "build/osmesa_client", prefix, is_our_picture)
     check_client(work / "build/gl_client", prefix, is_our_gl)

@@ -5,6 +5,7 @@
 """
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -18,8 +19,10 @@ GENERATED = re.compile(r"\.gen\.|\.exports$|golden/")
 
 def tracked_files(root):
     """Paths git knows; without git (an unpacked archive) every file outside build folders."""
-    git = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], capture_output=True)
-    if git.returncode == 0:
+    git = None
+    if shutil.which("git"):
+        git = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], capture_output=True)
+    if git and git.returncode == 0:
         return [name for name in git.stdout.decode().split("\0") if name and (root / name).is_file()]
     skipped = {"build", "out", ".git"}
     return [p.relative_to(root).as_posix() for p in root.rglob("*")
