@@ -287,14 +287,19 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.stipple_start = packet.continues ? stipple : 0;
   record.vertices.layout = layout;
   record.runs_points = points_run(record, packet.primitive) && !notes;
-  shade(packet, record.vertices);
+  if (points_run_unshaded(record, packet) && !meters)
+    record.given_points = &packet.batch;
+  else
+    shade(packet, record.vertices);
   find_clip_distances(packet.batch, record);
   assemble_draw(record, packet, primitive_count(packet.primitive, packet.index_count));
   // Points in runs bring along all that is needed.
-  if (record.runs_points) filling->arena.take_back(size_t{packet.batch.count} * layout.stride());
+  if (record.runs_points && record.given_points == nullptr)
+    filling->arena.take_back(size_t{packet.batch.count} * layout.stride());
   // Clip coordinates and outcodes have done their work; the next draw takes their memory.
   record.vertices.outcodes.swap(outcodes);
   record.vertices.clip.swap(clip);
+  record.given_points = nullptr;
   record.clip_distances = nullptr, record.clip_codes = record.edge_flags = nullptr;
   execute_if_full();
 }

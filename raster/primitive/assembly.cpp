@@ -3,12 +3,14 @@
 #include <bit>
 #include <cstring>
 
+#include "raster/fragment/program.h"
 #include "raster/primitive/clip.h"
 #include "raster/primitive/patterns.h"
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/triangle_filter.h"
 #include "raster/primitive/window_box.h"
 #include "raster/surface/framebuffer.h"
+#include "raster/vertex/vertex_stage.h"
 
 namespace halfspace::raster {
 
@@ -41,15 +43,14 @@ namespace {
 class Assembler {
  public:
   Assembler(const DrawRecord& draw, const uint32_t* indices, uint32_t index_count, Segment& segment)
-      : segment_(segment),
+      : draw_(draw),
+        segment_(segment),
         indices_(indices),
         index_count_(index_count),
         records_(draw.vertices.records),
         stride_(draw.vertices.layout.stride()),
         outcodes_(draw.vertices.outcodes.data()),
         bounds_(draw.bounds),
-        runs_points_(draw.runs_points),
-        color_(draw.vertices.layout.color),
         clipper_(draw) {
     const RasterState& raster = draw.state->raster;
     front_is_ccw_ = raster.front_is_ccw;
@@ -90,7 +91,7 @@ class Assembler {
   }
 
   void points(uint32_t first, uint32_t count) {
-    if (runs_points_) return run_points(first, count);
+    if (draw_.runs_points) return run_points(first, count);
     for (uint32_t k = first; k < first + count; ++k) {
       const uint32_t v = vertex(k);
       int px, py;
@@ -212,35 +213,48 @@ class Assembler {
 
   // A tile's points follow each other in memory, whatever came between.
   void run_points(uint32_t first, uint32_t count) {
-    segment_.points.resize(segment_.bins.size());
-    const auto first_run = uint32_t(segment_.primitives.size());
+    PointBins& points = segment_.points;
+    points.start_draw(segment_.bins.size());
+    if (draw_.given_points != nullptr)
+      place_points(*draw_.state, *draw_.given_points, draw_.vertices.layout, point_job(), first, count);
+    else
+      run_shaded_points(first, count);
+    segment_.point_count += points.finish_draw();
+  }
+
+  PointJob point_job() {
+    const auto open = [](void* assembler, uint32_t tile) {
+      static_cast<Assembler*>(assembler)->open_run(tile);
+    };
+    const double depth_steps = draw_.program->reads_depth ? double(kDepthMax) : 0;
+    return {bounds_, segment_.tiles_x, depth_steps, segment_.points.bins(), open, this};
+  }
+
+  void run_shaded_points(uint32_t first, uint32_t count) {
+    const int color = draw_.vertices.layout.color;
+    PointBin* bins = segment_.points.bins();
     for (uint32_t k = first; k < first + count; ++k) {
       const uint32_t v = vertex(k);
       int px, py;
       if (!is_point_seen(v, px, py)) continue;
       const size_t tile = size_t(py / kTileSize) * size_t(segment_.tiles_x) + size_t(px / kTileSize);
-      TilePoints& points = segment_.points[tile];
-      if (points.run_end <= first_run) start_run(points, uint32_t(tile));
-      PointPacket point;
+      PointBin& bin = bins[tile];
+      if (bin.next == bin.limit) open_run(uint32_t(tile));
+      PointPacket& point = *bin.next++;
       point.offset = tile_offset(px, py);
       point.depth = int32_t(head(v).z * double(kDepthMax) + 0.5);
-      if (color_ >= 0) std::memcpy(point.color, reinterpret_cast<const float*>(&head(v) + 1) + color_, sizeof point.color);
-      points.packets.push_back(point);
-    }
-    for (size_t i = first_run; i < segment_.primitives.size(); ++i) {
-      PrimitiveRef& run = segment_.primitives[i];
-      run.v[1] = uint32_t(segment_.points[run.v[2]].packets.size()) - run.v[0];
-      segment_.point_count += run.v[1];
+      if (color >= 0)
+        std::memcpy(point.color, reinterpret_cast<const float*>(&head(v) + 1) + color, sizeof point.color);
     }
   }
 
-  void start_run(TilePoints& points, uint32_t tile) {
-    const auto begin = uint32_t(points.packets.size());
-    const uint32_t run = append({{begin, 0, tile}, PrimitiveKind::point_run, false, false, 0});
-    push_to_bin(segment_, int(tile) % segment_.tiles_x, int(tile) / segment_.tiles_x, run);
-    points.run_end = run + 1;
+  void open_run(uint32_t tile) {
+    const uint32_t run = segment_.points.open(tile);
+    push_to_bin(segment_, int(tile) % segment_.tiles_x, int(tile) / segment_.tiles_x,
+                append({{run, 0, 0}, PrimitiveKind::point_run, false, false, 0}));
   }
 
+  const DrawRecord& draw_;
   Segment& segment_;
   const uint32_t* indices_;
   uint32_t index_count_;
@@ -248,8 +262,6 @@ class Assembler {
   size_t stride_;
   const uint16_t* outcodes_;
   Rect bounds_;
-  bool runs_points_;
-  int color_;
   bool front_is_ccw_;
   int64_t culled_from_, culled_to_;  // signed areas that are dropped; 0 always is
   TriangleFilter filter_;

@@ -15,4 +15,9 @@ bool points_run(const DrawRecord& draw, Primitive mode) {
          !draw.state->raster.flat_shading && draw.vertices.layout.back_color < 0;
 }
 
+bool points_run_unshaded(const DrawRecord& draw, const DrawPacket& packet) {
+  return draw.runs_points && packet.indices == nullptr && !draw.state->lighting.enabled &&
+         draw.state->accuracy.transform != Level::exact;
+}
+
 }  // namespace halfspace::raster

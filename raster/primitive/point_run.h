@@ -13,4 +13,7 @@ bool points_wait(const DrawRecord& draw);
 // Whether such a draw's points, each of its own colour, are binned as runs.
 bool points_run(const DrawRecord& draw, Primitive mode);
 
+// Whether nothing but runs is made from their vertices, each of which is named once.
+bool points_run_unshaded(const DrawRecord& draw, const DrawPacket& packet);
+
 }  // namespace halfspace::raster

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raster/api/draw_packet.h"
+#include "raster/primitive/point_bins.h"
 #include "raster/primitive/shape_plan.h"
 #include "raster/vertex/shaded_vertices.h"
 
@@ -35,8 +36,8 @@ struct CutTriangle {
   uint32_t source;     // index of its PlaneSource
 };
 
-// A smooth triangle makes a fragment wherever it touches a pixel. A run is of points that are all in one tile:
-// segment.points[tile].packets, v[1] of them from v[0] on.
+// A smooth triangle makes a fragment wherever it touches a pixel. A run is of points that are all in one
+// tile: v[0] is its index in the segment's `points`.
 enum class PrimitiveKind : uint8_t { triangle, smooth_triangle, line, point, point_run };
 
 struct PrimitiveRef {
@@ -49,19 +50,6 @@ struct PrimitiveRef {
   uint8_t provoking;      // 0..2: which of v gives the flat colour
 };
 static_assert(sizeof(PrimitiveRef) == 16);
-
-// A point of one pixel, ready to be a fragment: the tile's worker need not look for its vertex in memory that another
-// thread may have written.
-struct PointPacket {
-  int32_t offset;  // of the pixel in the tile's memory
-  int32_t depth;   // 24 bits
-  float color[4];  // 0..1; of draws whose colour varies
-};
-
-struct TilePoints {
-  std::vector<PointPacket> packets;
-  uint32_t run_end = 0;  // one more than the last run's primitive; 0: none
-};
 
 struct PipelineProgram;  // raster/fragment/program.h
 struct PixelImage;       // raster/primitive/pixel_rect.h
@@ -81,6 +69,9 @@ struct DrawRecord {
   const uint8_t* edge_flags = nullptr;
   uint32_t stipple_start = 0;  // where the first line's stipple starts
   bool runs_points = false;  // its points are binned as runs
+  // Where that is all its vertices are for: what they are made from, until the draw is assembled. There are
+  // no records.
+  const VertexBatch* given_points = nullptr;
   const PixelImage* image = nullptr;  // fragments come from it; there are no vertices
 };
 
@@ -97,7 +88,7 @@ struct Segment {
   std::vector<DrawStart> draws;  // ascending first_primitive
   std::vector<std::vector<uint32_t>> bins;  // tiles_x * tiles_y, row by row from the bottom
   std::vector<uint32_t> touched;            // tiles whose bin is not empty
-  std::vector<TilePoints> points;  // of each tile, once there are any
+  PointBins points;
   size_t point_count = 0;
   int tiles_x = 0, tiles_y = 0;
   uint32_t stipple_end = 0;  // where the stipple of a line strip stands after the last draw
@@ -107,16 +98,13 @@ struct Segment {
     if (new_tiles_x != tiles_x || new_tiles_y != tiles_y) {
       bins.clear();
       bins.resize(size_t(new_tiles_x) * size_t(new_tiles_y));
-      points.clear();
       tiles_x = new_tiles_x;
       tiles_y = new_tiles_y;
     } else {
       for (uint32_t t : touched) bins[t].clear();
-      if (!points.empty()) {
-        for (uint32_t t : touched) points[t].packets.clear(), points[t].run_end = 0;
-      }
     }
     touched.clear();
+    points.clear();
     primitives.clear();
     cut_triangles.clear();
     plane_sources.clear();

@@ -2,7 +2,7 @@
 
 HWY_INLINE void load_element(const unsigned char* from, int size, const float* fallback, float* to) {
   for (int k = 0; k < 4; ++k) to[k] = fallback[k];
-  for (int k = 0; k < size; ++k) memcpy(to + k, from + size_t(k) * sizeof(float), sizeof(float));
+  for (int k = 0; k < 4 && k < size; ++k) memcpy(to + k, from + size_t(k) * sizeof(float), sizeof(float));
 }
 
 #if HWY_TARGET == HWY_SCALAR
@@ -22,16 +22,21 @@ HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t c
   }
 }
 
-HWY_INLINE void shade_colors(const ShadeJob& job, uint32_t first, uint32_t count) {
-  const unsigned char* p = job.color.data + size_t{first} * job.color.stride;
-  unsigned char* out = job.records + size_t{first} * job.record_stride + job.color_offset;
-  for (uint32_t i = 0; i < count; ++i, p += job.color.stride, out += job.record_stride) {
+// Vertices' own colours, held to [0, 1].
+struct ColorReader {
+  const StreamRef& stream;
+  const unsigned char* from;
+
+  HWY_INLINE ColorReader(const ShadeJob& job, uint32_t first, uint32_t)
+      : stream(job.color), from(job.color.data + size_t{first} * job.color.stride) {}
+
+  HWY_INLINE void Copy(uint32_t i, void* to) const {
     float rgba[4];
-    load_any(job.color, p, kDefaults, rgba);
+    load_any(stream, from + size_t{i} * stream.stride, kDefaults, rgba);
     for (float& v : rgba) v = v > 0 ? (v < 1 ? v : 1.0f) : 0.0f;
-    memcpy(out, rgba, sizeof rgba);
+    memcpy(to, rgba, sizeof rgba);
   }
-}
+};
 
 #else
 
@@ -111,17 +116,27 @@ HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t c
   for (; i % kLongestVector != 0; i += 4) store_columns(none, none, none, none, columns, i, out);
 }
 
-// Comparisons and selects rather than min and max: those disagree between levels about NaN and -0.
-HWY_INLINE void shade_colors(const ShadeJob& job, uint32_t first, uint32_t count) {
-  const Quads d;
-  const QuadVec zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const QuadReader quads(job.color, first, count, kDefaults);
-  unsigned char* out = job.records + size_t{first} * job.record_stride + job.color_offset;
-  for (uint32_t i = 0; i < count; ++i, out += job.record_stride) {
+// Vertices' own colours, held to [0, 1]: with comparisons and selects, since levels disagree in min and max about NaN
+// and -0.
+struct ColorReader {
+  QuadReader quads;
+
+  HWY_INLINE ColorReader(const ShadeJob& job, uint32_t first, uint32_t count)
+      : quads(job.color, first, count, kDefaults) {}
+
+  HWY_INLINE void Copy(uint32_t i, void* to) const {
+    const Quads d;
+    const QuadVec zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     QuadVec v = quads.get(i);
     v = hn::IfThenElseZero(hn::Gt(v, zero), v);
-    hn::StoreU(hn::IfThenElse(hn::Lt(v, one), v, one), d, reinterpret_cast<float*>(out));
+    hn::StoreU(hn::IfThenElse(hn::Lt(v, one), v, one), d, static_cast<float*>(to));
   }
-}
+};
 
 #endif
+
+HWY_INLINE void shade_colors(const ShadeJob& job, uint32_t first, uint32_t count) {
+  const ColorReader colors(job, first, count);
+  unsigned char* out = job.records + size_t{first} * job.record_stride + job.color_offset;
+  for (uint32_t i = 0; i < count; ++i, out += job.record_stride) colors.Copy(i, out);
+}

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "raster/primitive/point_packet.h"
 #include "raster/vertex/lighting_job.h"
 #include "raster/vertex/shaded_vertices.h"
 
@@ -61,6 +62,16 @@ struct ShadeJob {
   ClipVertex* clip;
 };
 
+// Where points of one pixel go.
+struct PointJob {
+  Rect bounds;  // in the framebuffer; points outside are not drawn
+  int tiles_x;
+  double depth_steps;  // the greatest depth; 0: nobody asks for depths
+  PointBin* bins;      // of each tile
+  void (*open_run)(void* owner, uint32_t tile);
+  void* owner;
+};
+
 // w below this is behind the eye for all purposes: 1/w times any finite float still is a finite float's
 // square.
 inline constexpr double kMinW = 1e-30;
@@ -70,6 +81,7 @@ inline constexpr float kMaxTexCoord = 1e30f;
 struct VertexKernels {
   void (*shade)(const ShadeJob& job, uint32_t first, uint32_t count);
   void (*power)(const float* x, const float* s, float* out, size_t count, Level level);
+  void (*place_points)(const ShadeJob& job, const PointJob& points, uint32_t first, uint32_t count);
 };
 
 }  // namespace halfspace::raster

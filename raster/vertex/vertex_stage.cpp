@@ -91,12 +91,26 @@ struct Fixed {
   hn::Vec<hn::Rebind<float, Doubles>> rest;
 };
 
-// x / w, not x * (1 / w): correctly rounded, so that a vertex meant to lie on the grid does.
-HWY_INLINE Fixed to_fixed(Vec clip, Vec w, Mask usable, double scale, double offset) {
+// Clip coordinates over w, where `usable`. x / w, not x * (1 / w): correctly rounded, so that a vertex meant
+// to lie on the grid does. In a parallel projection nothing is divided, since x / 1 is x.
+struct DividedVec {
+  Vec x, y, z, inv_w;
+
+  HWY_INLINE DividedVec(const ClipVec& c, Mask usable) {
+    const Doubles d;
+    const Vec one = hn::Set(d, 1.0), w = hn::IfThenElse(usable, c.w, one);
+    x = c.x, y = c.y, z = c.z, inv_w = one;
+    if (hn::AllTrue(d, hn::Eq(w, one))) return;
+    x = hn::Div(x, w), y = hn::Div(y, w), z = hn::Div(z, w), inv_w = hn::Div(one, w);
+  }
+};
+
+// `place`: between -1 and 1 in the viewport.
+HWY_INLINE Fixed to_fixed(Vec place, Mask usable, double scale, double offset) {
   const Doubles d;
   const hn::Rebind<int32_t, Doubles> di;
   const hn::Rebind<float, Doubles> df;
-  const Vec ideal = hn::Mul(hn::Div(clip, w), hn::Set(d, scale));
+  const Vec ideal = hn::Mul(place, hn::Set(d, scale));
   const Vec grid = hn::Floor(hn::Add(ideal, hn::Set(d, 0.5)));
   const auto rest = hn::DemoteTo(df, hn::IfThenElseZero(usable, hn::Sub(ideal, grid)));
   Vec v = hn::Add(grid, hn::Set(d, offset));
@@ -114,17 +128,22 @@ HWY_INLINE hn::Vec<Words> join(V low, V high) {
                 hn::ShiftLeft<32>(hn::PromoteTo(Words(), hn::BitCast(half, high))));
 }
 
+// `place`: between -1 and 1 in the depth range.
+HWY_INLINE Vec window_depth(Vec place, const WindowTransform& t) {
+  const Doubles d;
+  const Vec z = hn::Add(hn::Mul(place, hn::Set(d, t.depth_scale)), hn::Set(d, t.depth_offset));
+  const Vec low = hn::Set(d, t.depth_low), high = hn::Set(d, t.depth_high);  // an ulp beyond, at most
+  const Vec held = hn::IfThenElse(hn::Lt(z, low), low, z);
+  return hn::IfThenElse(hn::Gt(held, high), high, held);
+}
+
 HWY_INLINE void store_window(const ClipVec& c, Mask usable, const WindowTransform& t, Group& g, uint32_t i) {
   const Doubles d;
-  const Vec one = hn::Set(d, 1.0);
-  const Vec w = hn::IfThenElse(usable, c.w, one);
-  const Fixed x = to_fixed(c.x, w, usable, t.scale_x, t.offset_x);
-  const Fixed y = to_fixed(c.y, w, usable, t.scale_y, t.offset_y);
-  Vec z = hn::Add(hn::Mul(hn::Div(c.z, w), hn::Set(d, t.depth_scale)), hn::Set(d, t.depth_offset));
-  const Vec low = hn::Set(d, t.depth_low), high = hn::Set(d, t.depth_high);  // an ulp beyond, at most
-  z = hn::IfThenElse(hn::Lt(z, low), low, z);
-  z = hn::IfThenElse(hn::Gt(z, high), high, z);
-  const Vec inv_w = hn::IfThenElseZero(usable, hn::Div(one, w));
+  const DividedVec place(c, usable);
+  const Fixed x = to_fixed(place.x, usable, t.scale_x, t.offset_x);
+  const Fixed y = to_fixed(place.y, usable, t.scale_y, t.offset_y);
+  const Vec z = window_depth(place.z, t);
+  const Vec inv_w = hn::IfThenElseZero(usable, place.inv_w);
   // A head's four words, in their order: x and y, z, 1/w, what snapping took.
   static_assert(sizeof(VertexHead) == 4 * sizeof(double) && offsetof(VertexHead, inv_w) == 16);
   hn::StoreInterleaved4(hn::BitCast(d, join(x.value, y.value)), hn::IfThenElseZero(usable, z), inv_w,
@@ -144,13 +163,17 @@ HWY_INLINE Mask surely_inside(const ClipVec& c) {
   return hn::And(hn::And(xy, zw), is_finite(c.w));
 }
 
+HWY_INLINE ClipVec clip_position(const ShadeJob& job, const float (*position)[kGroup], uint32_t i) {
+  const Vec x = load_column(position[0] + i), y = load_column(position[1] + i);
+  const Vec z = load_column(position[2] + i), w = load_column(position[3] + i);
+  const double* m = job.m;
+  return {row_times(m, x, y, z, w), row_times(m + 1, x, y, z, w), row_times(m + 2, x, y, z, w),
+          row_times(m + 3, x, y, z, w)};
+}
+
 HWY_INLINE void shade_lanes(const ShadeJob& job, Group& g, uint32_t i, ClipVertex* clip) {
   const Doubles d;
-  const Vec x = load_column(g.position[0] + i), y = load_column(g.position[1] + i);
-  const Vec z = load_column(g.position[2] + i), w = load_column(g.position[3] + i);
-  const double* m = job.m;
-  const ClipVec c{row_times(m, x, y, z, w), row_times(m + 1, x, y, z, w), row_times(m + 2, x, y, z, w),
-                  row_times(m + 3, x, y, z, w)};
+  const ClipVec c = clip_position(job, g.position, i);
   hn::StoreInterleaved4(c.x, c.y, c.z, c.w, d, &clip[i].x);
   Mask usable = surely_inside(c);
   if (HWY_LIKELY(job.window.inside_guard && hn::AllTrue(d, usable))) {
@@ -197,6 +220,7 @@ inline constexpr float kDefaults[4] = {0, 0, 0, 1};  // of a position's, colour'
 // Each uses what stands in those before it.
 // clang-format off
 #include "raster/vertex/streams.inl"
+#include "raster/vertex/point_places.inl"
 #include "raster/exact_math.inl"
 #include "raster/vertex/power.inl"
 #include "raster/vertex/lighting.inl"
@@ -303,7 +327,7 @@ void shade(const ShadeJob& job, uint32_t first, uint32_t count) {
   }
 }
 
-VertexKernels kernels() { return {shade, power_columns}; }
+VertexKernels kernels() { return {shade, power_columns, place_points}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace halfspace::raster
@@ -402,18 +426,24 @@ struct Target {
   ClipVertex* clip;
 };
 
-void run_job(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
-             int tex_coord_count, uint32_t first, uint32_t count, const Target& target) {
+// Positions and colours, as they are.
+ShadeJob plain_job(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout) {
   ShadeJob job{};
   std::memcpy(job.m, state.clip_from_object.data(), sizeof job.m);
   job.window = make_window_transform(state.viewport);
+  job.position = stream_ref(batch.position, kDefaultCoord);
+  job.color = stream_ref(batch.color, kDefaultColor);
+  job.color_offset = byte_offset(layout.color);
+  return job;
+}
+
+void run_job(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
+             int tex_coord_count, uint32_t first, uint32_t count, const Target& target) {
+  ShadeJob job = plain_job(state, batch, target.layout);
   std::memcpy(job.texture_matrix, state.texture.matrix.data(), sizeof job.texture_matrix);
   job.use_texture_matrix = !state.texture.matrix_is_identity;
   job.tex_coord_count = tex_coord_count;
-  job.position = stream_ref(batch.position, kDefaultCoord);
-  job.color = stream_ref(batch.color, kDefaultColor);
   job.tex_coord = stream_ref(batch.tex_coord, kDefaultCoord);
-  job.color_offset = byte_offset(target.layout.color);
   job.back_color_offset = byte_offset(target.layout.back_color);
   job.fog_offset = byte_offset(target.layout.fog);
   job.tex_coord_offset = byte_offset(target.layout.tex_coord);
@@ -451,6 +481,11 @@ void shade_vertices(const DrawState& state, const VertexBatch& batch, std::span<
                     uint32_t first, uint32_t count, ShadedVertices& out) {
   run_job(state, batch, materials, out.layout.projective ? 3 : 2, first, count,
           {out.layout, out.records, out.outcodes.data(), out.clip.data()});
+}
+
+void place_points(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout,
+                  const PointJob& points, uint32_t first, uint32_t count) {
+  vertex_kernels().place_points(plain_job(state, batch, layout), points, first, count);
 }
 
 void shade_attributes(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,

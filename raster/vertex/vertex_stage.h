@@ -5,6 +5,7 @@
 
 #include "raster/api/draw_packet.h"
 #include "raster/vertex/shaded_vertices.h"
+#include "raster/vertex/vertex_kernels.h"
 
 namespace halfspace::raster {
 
@@ -23,6 +24,11 @@ inline void shade_vertices(const DrawState& state, const VertexBatch& batch, uin
                            ShadedVertices& out) {
   shade_vertices(state, batch, {}, first, count, out);
 }
+
+// Shades vertices [first, first + count) of the batch, each a point of one pixel, right into their tiles'
+// packets. For draws without lighting, textures and fog, at less than the exact level.
+void place_points(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout,
+                  const PointJob& points, uint32_t first, uint32_t count);
 
 // A vertex's attributes, whatever the draw state would ask for (raster position, feedback; spec 2.13, 5.3).
 struct VertexAttributes {
