@@ -12,6 +12,7 @@
 
 #include "raster/batch.h"
 #include "raster/primitive/assembly.h"
+#include "raster/primitive/index_part.h"
 #include "raster/primitive/pixel_rect.h"
 #include "raster/primitive/point_run.h"
 #include "raster/primitive/shape_assembly.h"
@@ -261,13 +262,10 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
     uint32_t lowest = first, highest = first + part.index_count - 1;
     if (packet.indices != nullptr) {
       const uint32_t* indices = packet.indices + first;
-      lowest = highest = indices[0];
-      for (uint32_t i = 0; i < part.index_count; ++i) {  // not minmax_element: this is done in vectors
-        lowest = std::min(lowest, indices[i]);
-        highest = std::max(highest, indices[i]);
-      }
+      const IndexRange range = index_range(indices, part.index_count);
+      lowest = range.lowest, highest = range.highest;
       part_indices.resize(part.index_count);
-      for (uint32_t i = 0; i < part.index_count; ++i) part_indices[i] = indices[i] - lowest;
+      rebase_indices(indices, part.index_count, lowest, part_indices.data());
       part.indices = part_indices.data();
     }
     part.batch = part_of(packet.batch, lowest, highest - lowest + 1);
