@@ -6,17 +6,15 @@
 #if HWY_TARGET == HWY_AVX3
 // Planes of a batch at pixels of its primitives.
 struct ListedLanes {
-  __m512i lane, x, y;
-  __m512 dx, dy;  // from each one's anchor
+  __m512i lane;
+  __m512 dx, dy;  // from each one's anchor; exact
 
-  HWY_INLINE ListedLanes(const SetupBatch& s, __m512i codes)
-      : lane(_mm512_srli_epi32(codes, 12)),
-        x(_mm512_and_si512(codes, _mm512_set1_epi32(63))),
-        y(_mm512_and_si512(_mm512_srli_epi32(codes, 6), _mm512_set1_epi32(63))) {
+  HWY_INLINE ListedLanes(const SetupBatch& s, __m512i codes) : lane(_mm512_srli_epi32(codes, 12)) {
+    const __m512i low = _mm512_set1_epi32(63);
     const auto anchor = [&](const double* from)
                             HWY_ATTR { return Take(_mm512_cvtpd_ps(_mm512_load_pd(from))); };
-    dx = _mm512_add_ps(_mm512_cvtepi32_ps(x), anchor(s.anchor_x));
-    dy = _mm512_add_ps(_mm512_cvtepi32_ps(y), anchor(s.anchor_y));
+    dx = _mm512_add_ps(_mm512_cvtepi32_ps(_mm512_and_si512(codes, low)), anchor(s.anchor_x));
+    dy = _mm512_add_ps(_mm512_cvtepi32_ps(_mm512_and_si512(_mm512_srli_epi32(codes, 6), low)), anchor(s.anchor_y));
   }
 
   HWY_INLINE __m512 Take(__m256 eight) const {
@@ -35,14 +33,23 @@ struct ListedLanes {
     const __m512i which = _mm512_cvtepu32_epi64(_mm512_extracti64x4_epi64(lane, kHalf));
     const auto take = [&](const double* eight)
                           HWY_ATTR { return _mm512_permutexvar_pd(which, _mm512_load_pd(eight)); };
-    const __m512d px = _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(x, kHalf));
-    const __m512d py = _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(y, kHalf));
-    const __m512d ddx = _mm512_add_pd(px, take(s.anchor_x)), ddy = _mm512_add_pd(py, take(s.anchor_y));
-    const __m512d row = _mm512_add_pd(take(s.f0[0]), _mm512_mul_pd(take(s.dfdy[0]), ddy));
-    const VD z{_mm512_add_pd(row, _mm512_mul_pd(take(s.dfdx[0]), ddx))};
+    const auto widen = [](__m512 v) HWY_ATTR {
+      return _mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(v), kHalf)));
+    };
+    const __m512d row = _mm512_add_pd(take(s.f0[0]), _mm512_mul_pd(take(s.dfdy[0]), widen(dy)));
+    const VD z{_mm512_add_pd(row, _mm512_mul_pd(take(s.dfdx[0]), widen(dx)))};
     return hn::DemoteTo(DDi(), z).raw;
   }
 };
+
+// As TileOffset, of codes.
+HWY_INLINE __m512i OffsetOf(__m512i codes) {
+  const auto bits = [](__m512i from, int which)
+                        HWY_ATTR { return _mm512_and_si512(from, _mm512_set1_epi32(which)); };
+  return _mm512_or_si512(
+      bits(codes, 7 | 7 << 9),
+      _mm512_or_si512(bits(_mm512_srli_epi32(codes, 3), 7 << 3), bits(_mm512_slli_epi32(codes, 3), 7 << 6)));
+}
 
 // Of each lane, which lanes before it have the same value. Not by the intrinsic: Highway does not compile
 // AVX3 for it.
@@ -66,75 +73,78 @@ HWY_INLINE __m512i LoadEach(const uint32_t* memory, const uint32_t* at) {
   return _mm512_inserti64x4(_mm512_castsi256_si512(eight(0)), eight(8), 1);
 }
 
-// The lanes of `live` that pass. No two have the same pixel.
-HWY_INLINE __mmask16 TestListed(const SetupBatch& s, const ListedLanes& lanes, __m512i offset, __mmask16 live,
-                                int count, const DepthState& test, uint32_t* depth) {
+// Tests as many of the codes from `i` on as a vector holds, up to the first that has the pixel of one before it. Those
+// that pass go to the codes from `left` <= `i` on. Gives how many were tested.
+HWY_INLINE int TestListed(const SetupBatch& s, const DepthState& test, uint32_t* depth, int i, int& left,
+                          ListedPixels& list) {
+  __m512i codes = _mm512_loadu_si512(list.codes + i);
+  int count = list.count - i < kListLanes ? list.count - i : kListLanes;
+  auto live = static_cast<__mmask16>((1u << count) - 1);
+  const __m512i same = SameBefore(OffsetOf(codes));
+  const __mmask16 repeated = live & _mm512_test_epi32_mask(same, _mm512_set1_epi32(-1));
+  if (HWY_UNLIKELY(repeated != 0)) {
+    count = __builtin_ctz(repeated);
+    live = static_cast<__mmask16>((1u << count) - 1);
+  }
+  // Others stand for the first one, whose depth is written last.
+  codes = _mm512_mask_mov_epi32(_mm512_broadcastd_epi32(_mm512_castsi512_si128(codes)), live, codes);
   alignas(64) uint32_t at[kListLanes], values[kListLanes];
-  _mm512_store_si512(at, offset);
+  _mm512_store_si512(at, OffsetOf(codes));
   KeepInMemory(at);
+  const ListedLanes lanes(s, codes);
   const __m512i z = _mm512_inserti64x4(_mm512_castsi256_si512(lanes.Depth<0>(s)), lanes.Depth<1>(s), 1);
   const __m512i held = _mm512_min_epi32(_mm512_max_epi32(z, _mm512_setzero_si512()),
                                         _mm512_set1_epi32(static_cast<int>(kDepthMax)));
   const __m512i old = LoadEach(depth, at);
   using D16 = hn::CappedTag<int32_t, kListLanes>;
   const __mmask16 pass = live & PassesDepth(test.func, hn::Vec<D16>{held}, hn::Vec<D16>{old}).raw;
-  if (!test.write) return pass;
-  _mm512_store_si512(values, _mm512_mask_mov_epi32(old, pass, held));
-  KeepInMemory(values);
-  if (count == kListLanes) {
-    for (int j = 0; j < kListLanes; ++j) depth[at[j]] = values[j];
-  } else {
-    for (int j = 0; j < count; ++j) depth[at[j]] = values[j];
+  if (test.write) {
+    _mm512_store_si512(values, _mm512_mask_mov_epi32(old, pass, held));
+    KeepInMemory(values);
+    for (int j = kListLanes - 1; j >= 0; --j) depth[at[j]] = values[j];
   }
-  return pass;
-}
-
-// Pixels of the codes from `i` on, up to the first that another one of them has, too. Gives how many.
-HWY_INLINE int PackListed(TileContext& t, int i, uint32_t* depth) {
-  const SetupBatch& s = t.setup;
-  const ListedPixels& list = t.listed;
-  PixelQueue& queue = t.packer.queue;
-  const __m512i codes = _mm512_loadu_si512(list.codes + i);
-  const ListedLanes lanes(s, codes);
-  const auto bits = [&](__m512i from, int which)
-                        HWY_ATTR { return _mm512_and_si512(from, _mm512_set1_epi32(which)); };
-  // As TileOffset, of codes.
-  const __m512i offset = _mm512_or_si512(
-      bits(codes, 7 | 7 << 9),
-      _mm512_or_si512(bits(_mm512_srli_epi32(codes, 3), 7 << 3), bits(_mm512_slli_epi32(codes, 3), 7 << 6)));
-  int count = list.count - i < kListLanes ? list.count - i : kListLanes;
-  auto live = static_cast<__mmask16>((1u << count) - 1);
-  const __mmask16 repeated = live & _mm512_test_epi32_mask(SameBefore(offset), _mm512_set1_epi32(-1));
-  if (HWY_UNLIKELY(repeated != 0)) {
-    count = __builtin_ctz(repeated);
-    live = static_cast<__mmask16>((1u << count) - 1);
-  }
-  if (depth != nullptr) live = TestListed(s, lanes, offset, live, count, t.program->depth, depth);
-  const auto pack = [&](__m512 values, void* to)
-                        HWY_ATTR { _mm512_storeu_ps(to, _mm512_maskz_compress_ps(live, values)); };
-  const int color = t.flat_color ? t.program->params.color_plane : kMaxPlanes;
-  // Where w is constant nobody asks for it.
-  for (int p = (list.variant & kAffine) != 0 ? 2 : 1; p < t.plane_count; ++p) {
-    const bool flat = p >= color && p < color + 4;
-    pack(flat ? lanes.Take(s.flat[p - color]) : lanes.Plane(s, p), queue.plane[p] + queue.count);
-  }
-  pack(_mm512_castsi512_ps(offset), queue.offset + queue.count);
-  queue.count += __builtin_popcount(live);
+  const __m512i passed = _mm512_maskz_compress_epi32(pass, codes);
+  const int passes = __builtin_popcount(pass);
+  if (HWY_LIKELY(repeated == 0)) _mm512_storeu_si512(list.codes + left, passed);
+  else _mm512_mask_storeu_epi32(list.codes + left, static_cast<__mmask16>((1u << passes) - 1), passed);
+  left += passes;
   return count;
 }
 
-// Tests and packs what is listed. To be called before anything else is drawn, and while the batch is there.
+// Queues the pixels of a vector of codes; those beyond the list's end are written over by the next.
+HWY_INLINE void QueueListed(TileContext& t, __m512i codes, int first) {
+  const SetupBatch& s = t.setup;
+  PixelQueue& queue = t.packer.queue;
+  const ListedLanes lanes(s, codes);
+  const int color = t.flat_color ? t.program->params.color_plane : kMaxPlanes;
+  // Where w is constant nobody asks for it.
+  for (int p = first; p < t.plane_count; ++p) {
+    const bool flat = p >= color && p < color + 4;
+    _mm512_storeu_ps(queue.plane[p] + queue.count, flat ? lanes.Take(s.flat[p - color]) : lanes.Plane(s, p));
+  }
+  _mm512_storeu_si512(queue.offset + queue.count, OffsetOf(codes));
+}
+
+// Tests and packs what is listed. To be called before anything else is drawn, and while the batch is there. All are
+// tested before the first is packed: so no interpolation waits for memory.
 HWY_NOINLINE void PackAllListed(TileContext& t) {
   ListedPixels& list = t.listed;
   PixelQueue& queue = t.packer.queue;
   uint32_t* depth = PreparePacking(t, list.variant, 0, list.blocks);
   t.statistics->fragments += static_cast<uint64_t>(list.count);
-  for (int i = 0; i < list.count;) {
+  if (depth != nullptr) {
+    int left = 0;
+    for (int i = 0; i < list.count;) i += TestListed(t.setup, t.program->depth, depth, i, left, list);
+    list.count = left;
+  }
+  const int first = (list.variant & kAffine) != 0 ? 2 : 1;
+  for (int i = 0; i < list.count; i += kListLanes) {
     if (queue.count > PixelQueue::kCapacity - kListLanes) {
       FlushPacked(t);
       t.packer.blocks = list.blocks;
     }
-    i += PackListed(t, i, depth);
+    QueueListed(t, _mm512_loadu_si512(list.codes + i), first);
+    queue.count += list.count - i < kListLanes ? list.count - i : kListLanes;
   }
   list.count = 0;
   list.blocks = 0;
