@@ -99,7 +99,7 @@ void tex_gen(Context& context, GLenum coord, GLenum pname, const GLdouble* param
     default:
       return record_error(context, GL_INVALID_ENUM);
   }
-  mark_dirty(context, kDirtyTexture | kDirtyTransform);
+  mark_dirty(context, kDirtyTexCoords | kDirtyTransform);
 }
 
 void get_tex_genfv(Context& context, GLenum coord, GLenum pname, GLfloat* params) {

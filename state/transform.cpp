@@ -91,7 +91,7 @@ StackView active_stack(Context& context) {
     case GL_PROJECTION:
       return {t.projection.matrices.data(), t.projection.depth, kMaxProjectionDepth, kDirtyTransform};
     case GL_TEXTURE:
-      return {t.texture.matrices.data(), t.texture.depth, kMaxTextureDepth, kDirtyTexture};
+      return {t.texture.matrices.data(), t.texture.depth, kMaxTextureDepth, kDirtyTexCoords};
     default:
       return {t.modelview.matrices.data(), t.modelview.depth, kMaxModelviewDepth, kDirtyTransform};
   }

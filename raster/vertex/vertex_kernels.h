@@ -34,27 +34,28 @@ struct WindowTransform {
 // Which coordinates are made, and from what (spec 2.11.4).
 struct TexGenJob {
   enum Kind : uint8_t { kGiven, kPlane, kSphere };
-  bool any, sphere;
+  bool any = false, sphere = false;
   Kind kind[4];        // s, t, r, q
   double plane[4][4];  // on object coordinates: eye planes are taken there
 };
 
+// What has no value here is set where it is looked at: a draw of four vertices should not have to clear it all.
 struct ShadeJob {
-  double m[16];  // clip_from_object, column-major
+  const double* m;  // clip_from_object, column-major
   WindowTransform window;
-  double texture_matrix[16];
+  const double* texture_matrix;
   bool use_texture_matrix;
   int tex_coord_count;  // floats stored: s t, s t q or s t r q
   TexGenJob tex_gen;
   StreamRef position, color, tex_coord;
   int color_offset, tex_coord_offset;  // bytes from the start of a record; -1: not there
   // What follows matters where its flag says so.
-  bool needs_eye, needs_normal, normalize;
-  double eye[16];          // eye_from_object
+  bool needs_eye = false, needs_normal = false, normalize = false;
+  const double* eye;       // eye_from_object
   float normal_matrix[9];  // column-major; of any length under `normalize`
   StreamRef normal;
-  const LightingJob* lighting;     // null: the vertex's own colour
-  const uint32_t* material_index;  // with lighting->materials
+  const LightingJob* lighting = nullptr;     // null: the vertex's own colour
+  const uint32_t* material_index = nullptr;  // with lighting->materials
   int back_color_offset, fog_offset;
   unsigned char* records;
   size_t record_stride;

@@ -392,7 +392,7 @@ TexGenJob make_tex_gen_job(const DrawState& state) {
 void prepare_effects(const DrawState& state, const VertexBatch& batch,
                      std::span<const MaterialPair> materials, const VertexLayout& layout, ShadeJob& job,
                      LightingJob& lighting) {
-  std::memcpy(job.eye, state.eye_from_object.data(), sizeof job.eye);
+  job.eye = state.eye_from_object.data();
   job.needs_eye = layout.fog >= 0;
   if (layout.tex_coord >= 0 && state.tex_gen.any()) {
     job.tex_gen = make_tex_gen_job(state);
@@ -428,8 +428,8 @@ struct Target {
 
 // Positions and colours, as they are.
 ShadeJob plain_job(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout) {
-  ShadeJob job{};
-  std::memcpy(job.m, state.clip_from_object.data(), sizeof job.m);
+  ShadeJob job;
+  job.m = state.clip_from_object.data();
   job.window = make_window_transform(state.viewport);
   job.position = stream_ref(batch.position, kDefaultCoord);
   job.color = stream_ref(batch.color, kDefaultColor);
@@ -440,7 +440,7 @@ ShadeJob plain_job(const DrawState& state, const VertexBatch& batch, const Verte
 void run_job(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
              int tex_coord_count, uint32_t first, uint32_t count, const Target& target) {
   ShadeJob job = plain_job(state, batch, target.layout);
-  std::memcpy(job.texture_matrix, state.texture.matrix.data(), sizeof job.texture_matrix);
+  job.texture_matrix = state.texture.matrix.data();
   job.use_texture_matrix = !state.texture.matrix_is_identity;
   job.tex_coord_count = tex_coord_count;
   job.tex_coord = stream_ref(batch.tex_coord, kDefaultCoord);

@@ -1,6 +1,7 @@
 #include "state/derive/derived.h"
 
 #include <algorithm>
+#include <bit>
 #include <new>
 #include <utility>
 
@@ -192,6 +193,10 @@ void derive_texture(Context& context, DrawState& out) {
   unit.view = current_texture_view(context);
   unit.env = texture_env_mode(context);
   unit.env_color = texture_env_color(context);
+}
+
+void derive_tex_coords(const Context& context, DrawState& out) {
+  raster::TextureUnitState& unit = out.texture;
   const Matrix& matrix = context.transform.texture.top();
   unit.matrix = widen(matrix);
   unit.matrix_is_identity = matrix == kIdentity;
@@ -199,6 +204,11 @@ void derive_texture(Context& context, DrawState& out) {
 }
 
 }  // namespace
+
+void VersionedState::retire() {
+  texture.view.reset();
+  versions[std::countr_zero(uint32_t{kDirtyTexture})] = 0;
+}
 
 void mark_dirty(Context& context, uint32_t bits) { context.derived.dirty |= bits; }
 
@@ -221,23 +231,26 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   const uint64_t revision = texture_revision(context);
   if (revision != derived.texture_revision) derived.dirty |= kDirtyTexture;
   if (derived.dirty == 0) return derived.state;
-  const BlockPool::Allocator<DrawState> memory(derived.pool);
-  auto next = derived.state ? std::allocate_shared<DrawState>(memory, *derived.state)
-                            : std::allocate_shared<DrawState>(memory);
-  if (derived.dirty & kDirtyTransform) derive_transform(context, *next);
-  if (derived.dirty & kDirtyViewport) derive_viewport(context, *next);
-  if (derived.dirty & kDirtyRaster) {
-    derive_raster(context, *next);
-    derive_shapes(context, *next);
-    derive_accuracy(context, *next);
-  }
-  if (derived.dirty & kDirtyClipPlanes) derive_clip_planes(context, *next);
-  if (derived.dirty & kDirtyLighting) derive_lighting(context, *next);
-  if (derived.dirty & kDirtyFragment) derive_fragment(context, *next);
-  if (derived.dirty & kDirtyTexture) derive_texture(context, *next);
+  for (int group = 0; group < kDirtyGroups; ++group)
+    if (derived.dirty >> group & 1) derived.versions[size_t(group)] = ++derived.last_version;
+  const auto next = derived.states.take();
+  const auto bring_up_to_date = [&](uint32_t bit, auto&&... derive_groups) {
+    const auto group = size_t(std::countr_zero(bit));
+    if (next->versions[group] == derived.versions[group]) return;
+    (derive_groups(context, *next), ...);
+    next->versions[group] = derived.versions[group];
+  };
+  bring_up_to_date(kDirtyTransform, derive_transform);
+  bring_up_to_date(kDirtyViewport, derive_viewport);
+  bring_up_to_date(kDirtyRaster, derive_raster, derive_shapes, derive_accuracy);
+  bring_up_to_date(kDirtyClipPlanes, derive_clip_planes);
+  bring_up_to_date(kDirtyLighting, derive_lighting);
+  bring_up_to_date(kDirtyFragment, derive_fragment);
+  bring_up_to_date(kDirtyTexture, derive_texture);
+  bring_up_to_date(kDirtyTexCoords, derive_tex_coords);
   derived.texture_revision = revision;
   derived.dirty = 0;
-  derived.state = std::move(next);
+  derived.state = next;
   return derived.state;
 }
 

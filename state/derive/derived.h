@@ -1,12 +1,13 @@
 // From GL's state to the raster room's: what a draw needs, rebuilt only where something changed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
 #include "raster/api/draw_packet.h"
 #include "raster/api/draw_state.h"
-#include "state/derive/block_pool.h"
+#include "state/derive/reused.h"
 #include "state/gl_types.h"
 
 namespace halfspace::state {
@@ -19,16 +20,28 @@ enum DirtyBits : uint32_t {
   kDirtyViewport = 2,   // viewport, depth range
   kDirtyRaster = 4,     // points, lines, polygons, shade model, scissor, hints
   kDirtyFragment = 8,   // alpha test, depth, blend, colour mask
-  kDirtyTexture = 16,   // texture enables, bindings, objects, environment, texture matrix
+  kDirtyTexture = 16,   // texture enables, bindings, objects, environment
   kDirtyLighting = 32,  // lights, materials, light model, colour material
   kDirtyClipPlanes = 64,
-  kDirtyAll = 127,
+  kDirtyTexCoords = 128,  // texture matrix, generated coordinates
+  kDirtyAll = 255,
+};
+inline constexpr int kDirtyGroups = 8;
+
+// A draw's state, and which version of each group of DirtyBits it holds. One that is used again is brought up to date
+// only where it differs: from draw to draw that is little of three kilobytes.
+struct VersionedState : raster::DrawState {
+  std::array<uint64_t, kDirtyGroups> versions{};  // 0: of none
+  // Nobody can say when it is used again: it must not keep a texture until then.
+  void retire();
 };
 
 struct DerivedState {
   uint32_t dirty = kDirtyAll;
   uint64_t texture_revision = 0;  // of the texture unit in `state`
-  BlockPool pool;  // draws' states come from here
+  std::array<uint64_t, kDirtyGroups> versions{};  // of each group, as the context has it
+  uint64_t last_version = 0;
+  Reused<VersionedState> states;
   std::shared_ptr<const raster::DrawState> state;
 };
 
