@@ -31,7 +31,7 @@ struct LineSetup {
     CopyQuads(high, quads, 1, lane, in);
   }
 
-  static HWY_INLINE void Spread(const QuadPlan& quads, int attributes, int i, SetupInput& in) {
+  static HWY_INLINE void Spread(const QuadPlan& quads, int attributes, int i, SetupInput& in, CornerVectors& v) {
     const DD d;
     const DDi di;
     const DDf df;
@@ -42,31 +42,25 @@ struct LineSetup {
       hn::LoadInterleaved4(d, reinterpret_cast<const double*>(in.head[k] + i), place, z, inv_w, rest);
       x[k] = LowHalf(di, place), y[k] = HighHalf(di, place);
       rest_x[k] = LowHalf(df, rest), rest_y[k] = HighHalf(df, rest);
-      hn::Store(z, d, in.z[k] + i);
-      hn::Store(inv_w, d, in.inv_w[k] + i);
-      if (k == 0) hn::Store(z, d, in.z[2] + i);
-      if (k == 0) hn::Store(inv_w, d, in.inv_w[2] + i);
+      v.z[k] = z, v.inv_w[k] = inv_w;
     }
+    v.z[2] = v.z[0], v.inv_w[2] = v.inv_w[0];
     x[2] = hn::Sub(x[0], hn::Sub(y[1], y[0])), y[2] = hn::Add(y[0], hn::Sub(x[1], x[0]));
     rest_x[2] = hn::Sub(rest_x[0], hn::Sub(rest_y[1], rest_y[0]));
     rest_y[2] = hn::Add(rest_y[0], hn::Sub(rest_x[1], rest_x[0]));
     for (int k = 0; k < 3; ++k) {
-      hn::Store(x[k], di, in.x[k] + i);
-      hn::Store(y[k], di, in.y[k] + i);
-      hn::Store(hn::PromoteTo(d, rest_x[k]), d, in.rest_x[k] + i);
-      hn::Store(hn::PromoteTo(d, rest_y[k]), d, in.rest_y[k] + i);
+      v.place_x[k] = x[k], v.place_y[k] = y[k];
+      v.x[k] = hn::PromoteTo(d, x[k]), v.y[k] = hn::PromoteTo(d, y[k]);
+      v.rest_x[k] = hn::PromoteTo(d, rest_x[k]), v.rest_y[k] = hn::PromoteTo(d, rest_y[k]);
     }
     for (int q = 0; q < quads.count; ++q) {
-      hn::Vec<DDf> v[2][4];
+      hn::Vec<DDf> quad[2][4];
       for (int k = 0; k < 2; ++k)
-        hn::LoadInterleaved4(df, in.quad[k][q][i], v[k][0], v[k][1], v[k][2], v[k][3]);
+        hn::LoadInterleaved4(df, in.quad[k][q][i], quad[k][0], quad[k][1], quad[k][2], quad[k][3]);
       for (int f = 0; f < 4; ++f) {
         const int a = quads.Start(q) + f;
         if (a < 4 * q || a >= attributes) continue;
-        const VD first = hn::PromoteTo(d, v[0][f]);
-        hn::Store(first, d, in.attribute[a][0] + i);
-        hn::Store(hn::PromoteTo(d, v[1][f]), d, in.attribute[a][1] + i);
-        hn::Store(first, d, in.attribute[a][2] + i);
+        for (int k = 0; k < 3; ++k) hn::Store(quad[k % 2][f], df, in.attribute[a][k] + i);
       }
     }
   }
@@ -315,9 +309,9 @@ int RunPlainLines(TileContext& t, const Segment& segment, const DrawRecord& draw
   const int32_t center_y = t.y * kSubpixelScale + kSubpixelScale / 2;
   const VD cx = hn::Set(d, static_cast<double>(center_x)), cy = hn::Set(d, static_cast<double>(center_y));
   for (int i = 0; i < count; i += kDoubleLanes) {
-    LineSetup::Spread(quads, layout.attribute_count, i, t.input);
     CornerVectors v;
-    for (int k = 0; k < 3; ++k) v.x[k] = LoadInt(t.input.x[k] + i), v.y[k] = LoadInt(t.input.y[k] + i);
+    LineSetup::Spread(quads, layout.attribute_count, i, t.input, v);
+    if (HWY_UNLIKELY(params.one_lambda)) StorePlaces(v, i, t.input);
     SetAnchor(v, i, cx, cy, t.setup);
     SetPlanes(t.input, layout, params, v, i, t.setup);
   }

@@ -10,48 +10,75 @@ inline constexpr double kRounding = 1.0 / (1 << 24);
 inline constexpr double kFloatUlps = 3 * kRounding;
 inline constexpr double kCloseLook = 4.0 / 3;  // the part of a tolerance that the closer look may use up
 
-struct CornerVectors {
-  VD x[3], y[3];
-};
-
-HWY_INLINE VD LoadInt(const int32_t* from) { return hn::PromoteTo(DD(), hn::Load(DDi(), from)); }
 HWY_INLINE void StoreInt(VD v, int32_t* to) { hn::Store(hn::DemoteTo(DDi(), v), DDi(), to); }
+
+// For what is made from one primitive after the other.
+HWY_INLINE void StorePlaces(const CornerVectors& v, int i, SetupInput& in) {
+  for (int k = 0; k < 3; ++k)
+    hn::Store(v.place_x[k], DDi(), in.x[k] + i), hn::Store(v.place_y[k], DDi(), in.y[k] + i);
+}
+
+HWY_INLINE void StoreSide(VD v, int32_t* to) { StoreInt(v, to); }
+HWY_INLINE void StoreSide(VDi v, int32_t* to) { hn::Store(v, DDi(), to); }
+
+// Drops the sub-pixel bits.
+HWY_INLINE void StoreEdgeValue(VD e, int32_t* to) {
+  const DD d;
+  e = hn::Floor(hn::Mul(e, hn::Set(d, 1.0 / kSubpixelScale)));
+  // Beyond 2^30 the sign holds all over the tile.
+  const VD limit = hn::Set(d, 1073741824.0);
+  StoreInt(hn::Min(hn::Max(e, hn::Sub(hn::Neg(limit), hn::Set(d, 1.0))), limit), to);
+}
+HWY_INLINE void StoreEdgeValue(VDi e, int32_t* to) { hn::Store(hn::ShiftRight<kSubpixelBits>(e), DDi(), to); }
 
 // Edge from corner a to corner b of a counter-clockwise triangle at the tile's first pixel centre. Top-left
 // rule, y up: a pixel centre on the edge is inside if the edge goes down (a left edge) or runs leftward (a
 // top edge).
-HWY_INLINE void SetEdge(const CornerVectors& v, int a, int b, int edge, int i, VD center_x, VD center_y,
-                        SetupBatch& out) {
-  const DD d;
-  const VD zero = hn::Zero(d);
-  const VD dx = hn::Sub(v.x[b], v.x[a]), dy = hn::Sub(v.y[b], v.y[a]);
-  VD e = hn::Sub(hn::Mul(dx, hn::Sub(center_y, v.y[a])), hn::Mul(dy, hn::Sub(center_x, v.x[a])));
+template <class V>
+HWY_INLINE void SetEdge(const V x[3], const V y[3], int a, int b, int i, V center_x, V center_y, SetupBatch& out) {
+  const hn::DFromV<V> d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1);
+  const V dx = hn::Sub(x[b], x[a]), dy = hn::Sub(y[b], y[a]);
+  const V e = hn::Sub(hn::Mul(dx, hn::Sub(center_y, y[a])), hn::Mul(dy, hn::Sub(center_x, x[a])));
   const auto inclusive = hn::Or(hn::Lt(dy, zero), hn::And(hn::Eq(dy, zero), hn::Lt(dx, zero)));
-  e = hn::Floor(
-      hn::Mul(hn::Sub(e, hn::IfThenZeroElse(inclusive, hn::Set(d, 1.0))), hn::Set(d, 1.0 / kSubpixelScale)));
-  // Beyond 2^30 the sign holds all over the tile.
-  const VD limit = hn::Set(d, 1073741824.0);
-  StoreInt(hn::Min(hn::Max(e, hn::Sub(hn::Neg(limit), hn::Set(d, 1.0))), limit), &out.edge[edge][i]);
-  StoreInt(hn::Neg(dy), &out.step_x[edge][i]);
-  StoreInt(dx, &out.step_y[edge][i]);
+  StoreEdgeValue(hn::Sub(e, hn::IfThenZeroElse(inclusive, one)), &out.edge[a][i]);
+  StoreSide(hn::Neg(dy), &out.step_x[a][i]);
+  StoreSide(dx, &out.step_y[a][i]);
 }
 
-// Pixels whose centres lie in the primitive's box and in `limit` (relative to the tile, half-open).
-HWY_INLINE void SetBox(const SetupInput& in, int32_t center_x, int32_t center_y, const Rect& limit,
-                       SetupBatch& out) {
-  using D = hn::CappedTag<int32_t, kSetupLanes>;
-  const D d;
-  auto axis = [&](const int32_t(&p)[3][kSetupLanes], int i, int32_t center, int low, int high, int32_t* least,
-                  int32_t* most) {
-    const auto a = hn::Load(d, p[0] + i), b = hn::Load(d, p[1] + i), c = hn::Load(d, p[2] + i);
-    const auto smallest = hn::Sub(hn::Min(hn::Min(a, b), c), hn::Set(d, center - (kSubpixelScale - 1)));
-    const auto largest = hn::Sub(hn::Max(hn::Max(a, b), c), hn::Set(d, center));
-    hn::Store(hn::Max(hn::ShiftRight<kSubpixelBits>(smallest), hn::Set(d, low)), d, least + i);
-    hn::Store(hn::Min(hn::ShiftRight<kSubpixelBits>(largest), hn::Set(d, high - 1)), d, most + i);
-  };
-  for (int i = 0; i < kSetupLanes; i += static_cast<int>(hn::MaxLanes(d))) {
-    axis(in.x, i, center_x, limit.x0, limit.x1, out.min_x, out.max_x);
-    axis(in.y, i, center_y, limit.y0, limit.y1, out.min_y, out.max_y);
+// What a primitive spans along an axis, 16.8.
+struct Span {
+  VDi least, most;
+  HWY_INLINE explicit Span(const VDi p[3])
+      : least(hn::Min(hn::Min(p[0], p[1]), p[2])), most(hn::Max(hn::Max(p[0], p[1]), p[2])) {}
+  HWY_INLINE VDi Size() const { return hn::Sub(most, least); }
+};
+
+// Pixels whose centres lie in a span and in [low, high) of the tile.
+HWY_INLINE void SetBox(const Span& span, int32_t center, int low, int high, int32_t* least, int32_t* most) {
+  const DDi d;
+  const VDi first = hn::Sub(span.least, hn::Set(d, center - (kSubpixelScale - 1)));
+  const VDi last = hn::Sub(span.most, hn::Set(d, center));
+  hn::Store(hn::Max(hn::ShiftRight<kSubpixelBits>(first), hn::Set(d, low)), d, least);
+  hn::Store(hn::Min(hn::ShiftRight<kSubpixelBits>(last), hn::Set(d, high - 1)), d, most);
+}
+
+// Which pixels the primitives cover. `plain`: triangles that reach into the tile.
+HWY_INLINE void SetCoverage(const CornerVectors& v, int i, bool plain, int32_t center_x, int32_t center_y,
+                            const Rect& limit, SetupBatch& out) {
+  const DD d;
+  const DDi di;
+  const Span x(v.place_x), y(v.place_y);
+  SetBox(x, center_x, limit.x0, limit.x1, out.min_x + i, out.max_x + i);
+  SetBox(y, center_y, limit.y0, limit.y1, out.min_y + i, out.max_y + i);
+  // No larger than a tile, they are nowhere further from its first pixel than two tiles: edge values stay below 2^31.
+  const VDi size = hn::Max(x.Size(), y.Size());
+  if (plain && hn::AllTrue(di, hn::Lt(size, hn::Set(di, kTileSize * kSubpixelScale)))) {
+    const VDi cx = hn::Set(di, center_x), cy = hn::Set(di, center_y);
+    for (int k = 0; k < 3; ++k) SetEdge(v.place_x, v.place_y, k, (k + 1) % 3, i, cx, cy, out);
+  } else {
+    const VD cx = hn::Set(d, static_cast<double>(center_x)), cy = hn::Set(d, static_cast<double>(center_y));
+    for (int k = 0; k < 3; ++k) SetEdge(v.x, v.y, k, (k + 1) % 3, i, cx, cy, out);
   }
 }
 
@@ -61,30 +88,31 @@ HWY_INLINE void SetBox(const SetupInput& in, int32_t center_x, int32_t center_y,
 // as snapped.
 struct PlaneMaker {
   VD ex1, ey1, ex2, ey2, scale;
-  VD inv_w[3];
+  const VD* inv_w;    // of the three corners
   VD rest_x, rest_y;  // from the reference vertex as snapped to where it was, pixels
   VD moved;           // the most a corner was moved along either axis, pixels
   hn::Mask<DD> affine;
+  bool all_affine;
   VD width, height;     // pixels
   VD w_error, w_least;  // of the 1/w plane in float; its least value at a covered pixel
   VD w_spread;          // 1 / w_least
   VD w_excess;          // 1/w at the corner where it is least over w_least
   hn::Mask<DD> needs_double;
 
-  HWY_INLINE PlaneMaker(const CornerVectors& v, const SetupInput& in, int i) {
+  HWY_INLINE explicit PlaneMaker(const CornerVectors& v) : inv_w(v.inv_w) {
     const DD d;
     const VD pixel = hn::Set(d, 1.0 / kSubpixelScale);
-    for (int k = 0; k < 3; ++k) inv_w[k] = hn::Load(d, in.inv_w[k] + i);
     affine = hn::And(hn::Eq(inv_w[0], inv_w[1]), hn::Eq(inv_w[0], inv_w[2]));
+    all_affine = hn::AllTrue(d, affine);
     ex1 = hn::Sub(v.x[1], v.x[0]), ey1 = hn::Sub(v.y[1], v.y[0]);
     ex2 = hn::Sub(v.x[2], v.x[0]), ey2 = hn::Sub(v.y[2], v.y[0]);
     VD area = hn::Sub(hn::Mul(ex1, ey2), hn::Mul(ex2, ey1));
-    TakeBackSnapping(in, i, area);
+    TakeBackSnapping(v, area);
     const auto flat = hn::Eq(area, hn::Zero(d));
     scale = hn::IfThenZeroElse(flat, hn::Div(hn::Set(d, 256.0), hn::IfThenElse(flat, hn::Set(d, 1.0), area)));
     width = hn::Mul(Extent(v.x), pixel);
     height = hn::Mul(Extent(v.y), pixel);
-    needs_double = hn::Ne(area, area);
+    needs_double = NoLane();
     w_error = hn::Zero(d);
     w_least = w_spread = w_excess = hn::Set(d, 1.0);
   }
@@ -92,21 +120,23 @@ struct PlaneMaker {
   // Moves the corners to where they were before snapping. A covered pixel may then lie outside the triangle,
   // by half a sub-pixel: no barycentric coordinate, and no 1/w in parts of its least value, may change over
   // that by more than a quarter, or else the corners stay.
-  HWY_INLINE void TakeBackSnapping(const SetupInput& in, int i, VD& area) {
+  HWY_INLINE void TakeBackSnapping(const CornerVectors& v, VD& area) {
     const DD d;
-    VD rx[3], ry[3];
-    for (int k = 0; k < 3; ++k) rx[k] = hn::Load(d, in.rest_x[k] + i), ry[k] = hn::Load(d, in.rest_y[k] + i);
+    const VD *rx = v.rest_x, *ry = v.rest_y;
     const VD x1 = hn::Add(ex1, hn::Sub(rx[1], rx[0])), y1 = hn::Add(ey1, hn::Sub(ry[1], ry[0]));
     const VD x2 = hn::Add(ex2, hn::Sub(rx[2], rx[0])), y2 = hn::Add(ey2, hn::Sub(ry[2], ry[0]));
     const VD true_area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
     const VD longest =
         hn::Max(hn::Max(Length(x1, y1), Length(x2, y2)), Length(hn::Sub(x2, x1), hn::Sub(y2, y1)));
-    const VD d1 = hn::Sub(inv_w[1], inv_w[0]), d2 = hn::Sub(inv_w[2], inv_w[0]);
-    const VD slope =
-        Length(hn::Sub(hn::Mul(d1, y2), hn::Mul(d2, y1)), hn::Sub(hn::Mul(d2, x1), hn::Mul(d1, x2)));
-    const VD least = hn::Min(hn::Min(inv_w[0], inv_w[1]), inv_w[2]);
     const VD half = hn::Mul(true_area, hn::Set(d, 0.5));  // a quarter over half a sub-pixel
-    const auto use = hn::And(hn::Le(longest, half), hn::Le(slope, hn::Mul(least, half)));
+    auto use = hn::Le(longest, half);
+    if (!all_affine) {
+      const VD d1 = hn::Sub(inv_w[1], inv_w[0]), d2 = hn::Sub(inv_w[2], inv_w[0]);
+      const VD slope =
+          Length(hn::Sub(hn::Mul(d1, y2), hn::Mul(d2, y1)), hn::Sub(hn::Mul(d2, x1), hn::Mul(d1, x2)));
+      const VD least = hn::Min(hn::Min(inv_w[0], inv_w[1]), inv_w[2]);
+      use = hn::And(use, hn::Le(slope, hn::Mul(least, half)));
+    }
     ex1 = hn::IfThenElse(use, x1, ex1), ey1 = hn::IfThenElse(use, y1, ey1);
     ex2 = hn::IfThenElse(use, x2, ex2), ey2 = hn::IfThenElse(use, y2, ey2);
     area = hn::IfThenElse(use, true_area, area);
@@ -162,6 +192,38 @@ struct PlaneMaker {
         hn::Not(hn::Ge(hn::Mul(w_least, hn::Set(d, 1.0 / 256)), hn::IfThenZeroElse(affine, nearly)));
   }
 
+  // Whether the bounds of StoreAttribute, for a colour, hold whatever its values in [0, 255] are. All four planes are
+  // judged at once; where this says no, each is judged by its own values. The least of these bounds is looser than
+  // the closest of those by 256 / 255, far more than either is rounded by.
+  HWY_INLINE hn::Mask<DD> ColorsAreNear() const {
+    const DD d;
+    const VD most = hn::Set(d, 256.0), ulps = hn::Set(d, kFloatUlps);
+    VD value = most;
+    if (!all_affine) {
+      const VD highest = hn::Max(hn::Max(inv_w[0], inv_w[1]), inv_w[2]);
+      value = hn::IfThenElse(affine, most, hn::Mul(most, highest));
+    }
+    const VD steep = hn::Mul(value, scale);
+    const VD dfdx = hn::Mul(Length(ey1, ey2), steep), dfdy = hn::Mul(Length(ex1, ex2), steep);
+    const VD sides = hn::Add(hn::Mul(dfdx, hn::Add(width, moved)), hn::Mul(dfdy, hn::Add(height, moved)));
+    const VD reach = hn::Add(value, sides);
+    const VD drift = hn::Mul(hn::Add(dfdx, dfdy), moved);
+    const VD largest = hn::Add(hn::Mul(most, w_excess), hn::Mul(drift, w_spread));
+    const VD left = hn::Add(hn::Mul(reach, ulps), hn::Mul(largest, w_error));
+    const VD right = hn::Mul(hn::Sub(hn::Set(d, kColorTolerance), hn::Mul(largest, ulps)), w_least);
+    return hn::Le(left, right);
+  }
+
+  // The three values an attribute's plane goes through.
+  HWY_INLINE void Weigh(const VD value[3], bool divided, VD weighted[3]) const {
+    for (int k = 0; k < 3; ++k) weighted[k] = value[k];
+    if (all_affine && !divided) return;
+    for (int k = 0; k < 3; ++k) {
+      const VD by_w = hn::Mul(value[k], inv_w[k]);
+      weighted[k] = divided ? by_w : hn::IfThenElse(affine, value[k], by_w);
+    }
+  }
+
   // An attribute: plane of value / w, or of the value itself where w is constant (unless `divided` anyway). A
   // pixel's value errs by (error of value/w + value * error of 1/w) * w, and by the roundings of the divide.
   // It is largest at a snapped corner, where neither value/w nor 1/w differ by more than their drift from
@@ -170,10 +232,7 @@ struct PlaneMaker {
                                  SetupBatch& out) {
     const DD d;
     VD weighted[3];
-    for (int k = 0; k < 3; ++k) {
-      const VD by_w = hn::Mul(value[k], inv_w[k]);
-      weighted[k] = divided ? by_w : hn::IfThenElse(affine, value[k], by_w);
-    }
+    Weigh(value, divided, weighted);
     const Bounds bounds = Store(weighted, plane, i, out);
     const VD at_corners = hn::Max(hn::Max(hn::Abs(value[0]), hn::Abs(value[1])), hn::Abs(value[2]));
     const VD largest = hn::Add(hn::Mul(at_corners, w_excess), hn::Mul(bounds.drift, w_spread));
@@ -203,158 +262,60 @@ HWY_INLINE void TakeWholeTurns(const VD inv_w[3], bool mips, VD value[3]) {
   for (int k = 0; k < 3; ++k) value[k] = hn::Sub(value[k], turns);
 }
 
-// A second look at primitives that the bounds of PlaneMaker take for too large for floats: the same roundings, but at
-// each corner against 1/w at that very corner. A bound is largest at a corner, since it is convex and 1/w linear.
-struct CornerBounds {
-  VD x[3], y[3], spread[3];  // of each snapped corner: the way from the anchor, pixels; w, 1 where it is constant
-  VD w_error;                // of 1/w in float, in parts of it
-  hn::Mask<DD> fails;
-
-  HWY_INLINE CornerBounds(const CornerVectors& v, const PlaneMaker& maker, int i, const SetupBatch& out) {
-    const DD d;
-    const VD one = hn::Set(d, 1.0), pixel = hn::Set(d, 1.0 / kSubpixelScale);
-    hn::Mask<DD> normal = hn::Eq(one, one);
-    for (int k = 0; k < 3; ++k) {
-      x[k] = hn::Mul(hn::Sub(v.x[k], v.x[0]), pixel);
-      y[k] = hn::Mul(hn::Sub(v.y[k], v.y[0]), pixel);
-      spread[k] = one;
-    }
-    for (int k = 0; k < 3; ++k) {
-      const VD inv_w = Largest(1, k, i, out).value;
-      normal = hn::And(normal, hn::Ge(inv_w, hn::Set(d, 0x1p-100)));
-      spread[k] = hn::Div(one, hn::IfThenElse(maker.affine, one, inv_w));
-    }
-    w_error = hn::Zero(d);
-    for (int k = 0; k < 3; ++k) w_error = hn::Max(w_error, Largest(1, k, i, out).error);
-    w_error = hn::IfThenZeroElse(maker.affine, w_error);
-    const auto near = hn::And(normal, hn::Le(w_error, hn::Set(d, 1.0 / 256)));
-    fails = hn::Not(hn::Or(maker.affine, near));
-  }
-
-  // The tolerance holds everywhere, or `reach` times as much does by way of 1/w: error / w <= reach * tolerance.
-  HWY_INLINE void Check(int plane, VD tolerance, VD reach, int i, const SetupBatch& out) {
-    const DD d;
-    VD error = hn::Zero(d), value = hn::Zero(d), by_w = hn::Zero(d);
-    const VD quotient = hn::Add(w_error, hn::Set(d, 2 * kRounding));
-    for (int k = 0; k < 3; ++k) {
-      const Corner corner = Largest(plane, k, i, out);
-      error = hn::Max(error, corner.error);
-      value = hn::Max(value, hn::Abs(corner.value));
-      const VD sum = hn::Add(corner.error, hn::Mul(hn::Abs(corner.value), quotient));
-      by_w = hn::Max(by_w, hn::Div(sum, spread[k]));
-    }
-    const auto everywhere = hn::Le(hn::Add(error, hn::Mul(value, quotient)), tolerance);
-    fails = hn::Or(fails, hn::Not(hn::Or(everywhere, hn::Le(by_w, hn::Mul(tolerance, reach)))));
-  }
-
-  // Texels are larger than those of level 0 where mip levels are looked up. With rho = g w^2, g its least numerator, a
-  // level's texel is at least max(1, rho / 2) >= sqrt(g / 2) w texels of level 0: this is the root.
-  HWY_INLINE VD ReachOfMips(const VertexLayout& layout, const FragmentParams& params, hn::Mask<DD> affine, int i,
-                            const SetupBatch& out) const {
-    const DD d;
-    const VD q = hn::IfThenElse(affine, hn::Set(d, 1.0), hn::Load(d, out.f0[1] + i));
-    const VD qx = hn::IfThenZeroElse(affine, hn::Load(d, out.dfdx[1] + i));
-    const VD qy = hn::IfThenZeroElse(affine, hn::Load(d, out.dfdy[1] + i));
-    VD along_x[2], along_y[2], twist[2], back[2];
-    for (int axis = 0; axis < 2; ++axis) {
-      const int plane = 2 + layout.tex_coord + axis;
-      const VD size = hn::Set(d, params.lod_scale[axis]);
-      const VD s = hn::Mul(hn::Load(d, out.f0[plane] + i), size);
-      const VD sx = hn::Mul(hn::Load(d, out.dfdx[plane] + i), size), sy = hn::Mul(hn::Load(d, out.dfdy[plane] + i), size);
-      along_x[axis] = hn::Sub(hn::Mul(sx, q), hn::Mul(qx, s));
-      along_y[axis] = hn::Sub(hn::Mul(sy, q), hn::Mul(qy, s));
-      twist[axis] = hn::Sub(hn::Mul(sx, qy), hn::Mul(qx, sy));
-      back[axis] = hn::Neg(twist[axis]);
-    }
-    const VD squared = hn::Max(LeastSquare(along_x, twist, y), LeastSquare(along_y, back, x));
-    return hn::Sqrt(hn::Mul(hn::Sqrt(squared), hn::Set(d, 1 / 2.05)));
-  }
-
- private:
-  // The least square of first + step * at, a vector of two, for `at` within the range of three values.
-  static HWY_INLINE VD LeastSquare(const VD first[2], const VD step[2], const VD at[3]) {
-    const DD d;
-    const VD from = hn::Min(hn::Min(at[0], at[1]), at[2]), to = hn::Max(hn::Max(at[0], at[1]), at[2]);
-    const VD along = hn::Add(hn::Mul(first[0], step[0]), hn::Mul(first[1], step[1]));
-    const VD length = hn::Add(hn::Mul(step[0], step[0]), hn::Mul(step[1], step[1]));
-    const auto turns = hn::Gt(length, hn::Zero(d));
-    const VD foot = hn::IfThenElseZero(turns, hn::Div(hn::Neg(along), hn::IfThenElse(turns, length, hn::Set(d, 1.0))));
-    const VD nearest = hn::Min(hn::Max(foot, from), to);
-    const VD a = hn::Add(first[0], hn::Mul(step[0], nearest)), b = hn::Add(first[1], hn::Mul(step[1], nearest));
-    return hn::Add(hn::Mul(a, a), hn::Mul(b, b));
-  }
-
-  struct Corner {
-    VD value, error;  // both times w
-  };
-  HWY_INLINE Corner Largest(int plane, int k, int i, const SetupBatch& out) const {
-    const DD d;
-    const VD f0 = hn::Load(d, out.f0[plane] + i);
-    const VD across = hn::Mul(hn::Load(d, out.dfdx[plane] + i), x[k]);
-    const VD up = hn::Mul(hn::Load(d, out.dfdy[plane] + i), y[k]);
-    const VD row = hn::Add(f0, up), value = hn::Add(row, across);
-    const VD steps = hn::Mul(hn::Add(hn::Abs(across), hn::Abs(up)), hn::Set(d, 2.0));
-    const VD sums = hn::Add(hn::Abs(f0), hn::Add(hn::Abs(row), hn::Abs(value)));
-    return {hn::Mul(value, spread[k]), hn::Mul(hn::Mul(hn::Add(sums, steps), hn::Set(d, kRounding)), spread[k])};
-  }
-};
-
-HWY_NOINLINE void LookCloser(const VertexLayout& layout, const FragmentParams& params, const CornerVectors& v, int i,
-                             const SetupBatch& out, PlaneMaker& maker) {
-  const DD d;
-  CornerBounds bounds(v, maker, i, out);
-  const VD nowhere = hn::Zero(d);
-  for (int k = 0; layout.color >= 0 && k < 4; ++k)
-    bounds.Check(2 + layout.color + k, hn::Set(d, kCloseLook * kColorTolerance), nowhere, i, out);
-  if (layout.tex_coord >= 0) {
-    // Down to a level of one texel, and by each pixel's own lambda.
-    const LevelRef& last = params.levels[params.level_count - 1];
-    const bool mips = params.level_count > 1 && last.width_i == 1 && last.height_i == 1 && !params.one_lambda;
-    const VD reach = mips ? bounds.ReachOfMips(layout, params, maker.affine, i, out) : nowhere;
-    const double size[2] = {static_cast<double>(params.levels[0].width), static_cast<double>(params.levels[0].height)};
-    for (int axis = 0; axis < 2; ++axis)
-      bounds.Check(2 + layout.tex_coord + axis, hn::Set(d, kCloseLook * kTexelTolerance / size[axis]), reach, i, out);
-  }
-  if (layout.fog >= 0)
-    bounds.Check(2 + layout.fog, hn::Set(d, kCloseLook * kColorTolerance * params.fog.level_span), nowhere, i, out);
-  maker.needs_double = hn::And(maker.needs_double, bounds.fails);
-}
+#include "raster/tile/corner_bounds.inl"
 
 // The accuracy axes' say in which planes a primitive is interpolated by.
 HWY_NOINLINE void ApplyPlaneRule(const FragmentParams& params, PlaneMaker& maker) {
   if (params.plane_rule == PlaneRule::in_double) maker.needs_double = hn::Eq(maker.scale, maker.scale);
-  if (params.plane_rule == PlaneRule::in_float) maker.needs_double = hn::Ne(maker.scale, maker.scale);
+  if (params.plane_rule == PlaneRule::in_float) maker.needs_double = NoLane();
+}
+
+HWY_INLINE VD LoadAttribute(const SetupInput& in, const VertexLayout& layout, int a, int k, int i) {
+  const DD d;
+  const VD value = hn::PromoteTo(d, hn::Load(DDf(), in.attribute[a][k] + i));
+  return HWY_LIKELY(layout.low < 0) ? value : hn::Add(value, hn::Load(d, in.low[a][k] + i));
+}
+
+HWY_INLINE void StoreColors(const SetupInput& in, const VertexLayout& layout, int i, PlaneMaker& maker, SetupBatch& out) {
+  const DD d;
+  const bool near = hn::AllTrue(d, maker.ColorsAreNear());
+  for (int a = layout.color; a < layout.color + 4; ++a) {
+    VD value[3];
+    for (int k = 0; k < 3; ++k) value[k] = hn::Mul(LoadAttribute(in, layout, a, k, i), hn::Set(d, 255.0));
+    if (HWY_LIKELY(near)) {
+      VD weighted[3];
+      maker.Weigh(value, false, weighted);
+      maker.Store(weighted, 2 + a, i, out);
+    } else {
+      maker.StoreAttribute(value, 2 + a, i, false, hn::Set(d, kColorTolerance), out);
+    }
+  }
 }
 
 HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, const FragmentParams& params,
                           const CornerVectors& v, int i, SetupBatch& out) {
   const DD d;
-  PlaneMaker maker(v, in, i);
+  PlaneMaker maker(v);
   VD value[3];
-  for (int k = 0; k < 3; ++k) value[k] = hn::Mul(hn::Load(d, in.z[k] + i), hn::Set(d, kDepthScale));
+  for (int k = 0; k < 3; ++k) value[k] = hn::Mul(v.z[k], hn::Set(d, kDepthScale));
   maker.Store(value, 0, i, out);
   hn::Store(hn::Add(hn::Load(d, out.f0[0] + i), hn::Set(d, 0.5)), d,
             out.f0[0] + i);  // truncation then rounds to nearest
-  maker.StoreInvW(i, out);
-  if (layout.color >= 0) {
-    for (int a = layout.color; a < layout.color + 4; ++a) {
-      for (int k = 0; k < 3; ++k) value[k] = hn::Mul(hn::Load(d, in.attribute[a][k] + i), hn::Set(d, 255.0));
-      maker.StoreAttribute(value, 2 + a, i, false, hn::Set(d, kColorTolerance), out);
-    }
-  }
+  if (!maker.all_affine || layout.projective) maker.StoreInvW(i, out);
+  if (layout.color >= 0) StoreColors(in, layout, i, maker, out);
   if (layout.tex_coord >= 0) {
     const double size[3] = {static_cast<double>(params.levels[0].width),
                             static_cast<double>(params.levels[0].height), 1};
     const Wrap wrap[3] = {params.sampler.wrap_s, params.sampler.wrap_t, Wrap::clamp};
     for (int a = 0; a < (layout.projective ? 3 : 2); ++a) {
-      for (int k = 0; k < 3; ++k) value[k] = hn::Load(d, in.attribute[layout.tex_coord + a][k] + i);
+      for (int k = 0; k < 3; ++k) value[k] = LoadAttribute(in, layout, layout.tex_coord + a, k, i);
       if (!layout.projective && wrap[a] == Wrap::repeat) TakeWholeTurns(maker.inv_w, params.level_count > 1, value);
       maker.StoreAttribute(value, 2 + layout.tex_coord + a, i, layout.projective,
                            hn::Set(d, kTexelTolerance / size[a]), out);
     }
   }
   if (layout.fog >= 0) {
-    for (int k = 0; k < 3; ++k) value[k] = hn::Load(d, in.attribute[layout.fog][k] + i);
+    for (int k = 0; k < 3; ++k) value[k] = LoadAttribute(in, layout, layout.fog, k, i);
     maker.StoreAttribute(value, 2 + layout.fog, i, false, hn::Set(d, kColorTolerance * params.fog.level_span),
                          out);
   }
@@ -437,10 +398,10 @@ HWY_INLINE void OffsetDepth(const PolygonState& polygon, int lane, SetupBatch& o
 }
 
 // What the attributes' floats have left of doubles (VertexLayout::low).
-HWY_NOINLINE void AddLowParts(const Segment& segment, const ShadedVertices& vertices, const uint32_t* ids,
-                              int count, SetupInput& in) {
+HWY_NOINLINE void LoadLowParts(const Segment& segment, const ShadedVertices& vertices, const uint32_t* ids,
+                               int first, int count, SetupInput& in) {
   const VertexLayout& layout = vertices.layout;
-  for (int lane = 0; lane < count; ++lane) {
+  for (int lane = first; lane < first + count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
     if (ref.cut) continue;
     const bool back = ref.back_facing && layout.back_color >= 0;
@@ -452,7 +413,7 @@ HWY_NOINLINE void AddLowParts(const Segment& segment, const ShadedVertices& vert
       while (j < 2 && (v[j]->x != in.x[k][lane] || v[j]->y != in.y[k][lane])) ++j;
       const float* attributes = Attributes(v[j] == &made[j] ? v[0] : v[j]);
       for (int a = 0; a < layout.attribute_count; ++a)
-        in.attribute[a][k][lane] += static_cast<double>(attributes[layout.place(a, back) + layout.low]);
+        in.low[a][k][lane] = static_cast<double>(attributes[layout.place(a, back) + layout.low]);
     }
   }
 }
@@ -481,38 +442,69 @@ HWY_INLINE void SetAnchor(const CornerVectors& v, int i, VD center_x, VD center_
   hn::Store(hn::Mul(hn::Sub(center_y, v.y[0]), pixel), d, out.anchor_y + i);
 }
 
+// What set-up makes of the corners of a batch, which lie as `from` knows.
+template <class Corners>
+HWY_INLINE void SetUpCorners(const Corners& from, const Segment& segment, const DrawRecord& draw, const uint32_t* ids,
+                             int count, int32_t center_x, int32_t center_y, const Rect& limit, SetupInput& in,
+                             SetupBatch& out) {
+  const DD d;
+  const VertexLayout& layout = draw.vertices.layout;
+  const FragmentParams& params = draw.program->params;
+  const QuadPlan quads(layout.attribute_count);
+  const VD cx = hn::Set(d, static_cast<double>(center_x)), cy = hn::Set(d, static_cast<double>(center_y));
+  for (int i = 0; i < count; i += kDoubleLanes) {
+    CornerVectors v;
+    SpreadCorners(from, quads, layout.attribute_count, i, v, in);
+    if (HWY_UNLIKELY(layout.low >= 0 || params.one_lambda)) StorePlaces(v, i, in);
+    if (HWY_UNLIKELY(layout.low >= 0)) {
+      const int left = count - i;
+      LoadLowParts(segment, draw.vertices, ids, i, left < kDoubleLanes ? left : kDoubleLanes, in);
+    }
+    SetCoverage(v, i, Corners::kPlain, center_x, center_y, limit, out);
+    SetAnchor(v, i, cx, cy, out);
+    SetPlanes(in, layout, params, v, i, out);
+  }
+}
+
+// What primitives have in common, as far as set-up asks.
+struct CommonTraits {
+  bool plain = true;  // triangles with vertices of their own, and the colours that come first
+  bool any_cut = false;
+
+  HWY_INLINE CommonTraits(const Segment& segment, const VertexLayout& layout, const uint32_t* ids, int count) {
+    bool triangles = true, back = false;
+    for (int lane = 0; lane < count; ++lane) {
+      const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
+      triangles &= ref.kind == PrimitiveKind::triangle;
+      any_cut |= ref.cut;
+      back |= ref.back_facing;
+    }
+    plain = triangles && !any_cut && !(back && layout.back_color >= 0);
+  }
+};
+
 // Fills `out` for the primitives ids[0 .. count) of `segment`, all of one draw. `limit`: the draw's bounds
 // relative to the tile whose lowest pixel is (tile_x, tile_y).
 void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, int count, int tile_x,
            int tile_y, const Rect& limit, SetupInput& in, SetupBatch& out) {
-  const DD d;
   const VertexLayout& layout = draw.vertices.layout;
-  const FragmentParams& params = draw.program->params;
   const size_t stride = layout.stride();
-  const QuadPlan quads(layout.attribute_count);
   const int32_t center_x = tile_x * kSubpixelScale + kSubpixelScale / 2;
   const int32_t center_y = tile_y * kSubpixelScale + kSubpixelScale / 2;
-  bool any_cut = false;
-  for (int lane = 0; lane < count; ++lane) {
-    const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    CopyCorners(segment, draw.vertices, stride, ref, quads, lane, in);
-    any_cut |= ref.cut;
-  }
-  for (int i = 0; i < count; i += kDoubleLanes) SpreadCorners(quads, layout.attribute_count, i, in);
-  if (HWY_UNLIKELY(layout.low >= 0)) AddLowParts(segment, draw.vertices, ids, count, in);
-  SetBox(in, center_x, center_y, limit, out);
-  const VD cx = hn::Set(d, static_cast<double>(center_x)), cy = hn::Set(d, static_cast<double>(center_y));
-  for (int i = 0; i < count; i += kDoubleLanes) {
-    CornerVectors v;
-    for (int k = 0; k < 3; ++k) {
-      v.x[k] = LoadInt(in.x[k] + i);
-      v.y[k] = LoadInt(in.y[k] + i);
-    }
-    for (int k = 0; k < 3; ++k) SetEdge(v, k, (k + 1) % 3, k, i, cx, cy, out);
-    SetAnchor(v, i, cx, cy, out);
-    SetPlanes(in, layout, params, v, i, out);
+  const CommonTraits traits(segment, layout, ids, count);
+#if HALFSPACE_DIRECT_CORNERS
+  if (HWY_LIKELY(traits.plain)) {
+    const DirectCorners corners(segment, draw.vertices, stride, ids, count);
+    SetUpCorners(corners, segment, draw, ids, count, center_x, center_y, limit, in, out);
+  } else
+#endif
+  {
+    const QuadPlan quads(layout.attribute_count);
+    for (int lane = 0; lane < count; ++lane)
+      CopyCorners(segment, draw.vertices, stride, segment.primitives.data()[ids[lane]], quads, lane, in);
+    SetUpCorners(StagedCorners{in}, segment, draw, ids, count, center_x, center_y, limit, in, out);
   }
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
-  if (any_cut || flat || draw.shape.offset_fill || params.one_lambda)
+  if (traits.any_cut || flat || draw.shape.offset_fill || draw.program->params.one_lambda)
     FinishLanes(segment, draw, ids, count, center_x, center_y, in, out);
 }

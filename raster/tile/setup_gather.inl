@@ -16,21 +16,30 @@ struct QuadPlan {
 };
 
 struct SetupInput {
-  // Corners as they lay in memory: a head is four words, attributes come in quads as QuadPlan says.
+  // Corners as they lay in memory, of batches whose primitives are not all plain triangles: a head is four words,
+  // attributes come in quads as QuadPlan says.
   alignas(64) VertexHead head[3][kSetupLanes];
   alignas(64) float quad[3][kAttributeQuads][kSetupLanes][4];
   alignas(64) uint64_t in_order[kSetupLanes];  // not 0: corners are in the order they are wanted in
-  // The same a column a value, in the order set-up wants the corners in.
+  // A column a value, in the order set-up wants the corners in.
+  alignas(64) float attribute[kMaxPlanes - 2][3][kSetupLanes];
+  // The same, where accuracy calls for them only: positions, and what the attributes' floats have left of doubles.
   alignas(64) int32_t x[3][kSetupLanes], y[3][kSetupLanes];
-  alignas(64) double rest_x[3][kSetupLanes], rest_y[3][kSetupLanes];
-  alignas(64) double z[3][kSetupLanes], inv_w[3][kSetupLanes];
-  alignas(64) double attribute[kMaxPlanes - 2][3][kSetupLanes];
+  alignas(64) double low[kMaxPlanes - 2][3][kSetupLanes];
 
   HWY_INLINE void Clear() {
     memset(head, 0, sizeof head);
     memset(quad, 0, sizeof quad);
     memset(in_order, 0, sizeof in_order);
   }
+};
+
+// Corners of a group of lanes, in the order set-up wants them in.
+using VDi = hn::Vec<DDi>;
+struct CornerVectors {
+  VDi place_x[3], place_y[3];           // 16.8
+  VD x[3], y[3], rest_x[3], rest_y[3];  // 1/256 px
+  VD z[3], inv_w[3];
 };
 
 HWY_INLINE const VertexHead* Head(const ShadedVertices& vertices, size_t stride, uint32_t i) {
@@ -115,40 +124,6 @@ HWY_INLINE void CopyCorners(const Segment& segment, const ShadedVertices& vertic
   }
 }
 
-// The reference vertex is the one farthest from the eye, of those the lowest, of those the leftmost; the others follow
-// counter-clockwise. So planes and edges depend on where the corners are, not on the order they were given in. Farthest
-// since there 1/w is least, and floats round least where they start from.
-struct CornerOrder {
-  hn::Mask<DD> clockwise, second_first, third_first;
-
-  HWY_INLINE CornerOrder(const VD x[3], const VD y[3], const VD w[3], hn::Mask<DD> in_order) {
-    const DD d;
-    const VD area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
-                            hn::Mul(hn::Sub(x[2], x[0]), hn::Sub(y[1], y[0])));
-    clockwise = hn::AndNot(in_order, hn::Lt(area, hn::Zero(d)));
-    const VD xb = hn::IfThenElse(clockwise, x[2], x[1]), xc = hn::IfThenElse(clockwise, x[1], x[2]);
-    const VD yb = hn::IfThenElse(clockwise, y[2], y[1]), yc = hn::IfThenElse(clockwise, y[1], y[2]);
-    const VD wb = hn::IfThenElse(clockwise, w[2], w[1]), wc = hn::IfThenElse(clockwise, w[1], w[2]);
-    const auto b_first = IsBefore(xb, yb, wb, x[0], y[0], w[0]), c_first = IsBefore(xc, yc, wc, x[0], y[0], w[0]);
-    second_first = hn::AndNot(in_order, hn::AndNot(IsBefore(xc, yc, wc, xb, yb, wb), b_first));
-    third_first = hn::AndNot(in_order, hn::AndNot(second_first, c_first));
-  }
-
-  HWY_INLINE void Apply(VD v[3]) const {
-    const VD a = v[0], b = hn::IfThenElse(clockwise, v[2], v[1]), c = hn::IfThenElse(clockwise, v[1], v[2]);
-    v[0] = hn::IfThenElse(second_first, b, hn::IfThenElse(third_first, c, a));
-    v[1] = hn::IfThenElse(second_first, c, hn::IfThenElse(third_first, a, b));
-    v[2] = hn::IfThenElse(second_first, a, hn::IfThenElse(third_first, b, c));
-  }
-
- private:
-  // aw, bw: 1/w.
-  static HWY_INLINE hn::Mask<DD> IsBefore(VD ax, VD ay, VD aw, VD bx, VD by, VD bw) {
-    const auto below = hn::Or(hn::Lt(ay, by), hn::And(hn::Eq(ay, by), hn::Lt(ax, bx)));
-    return hn::Or(hn::Lt(aw, bw), hn::And(hn::Eq(aw, bw), below));
-  }
-};
-
 // The 32-bit halves of a word a lane.
 template <class To>
 HWY_INLINE hn::Vec<To> LowHalf(To to, VD word) {
@@ -160,38 +135,188 @@ HWY_INLINE hn::Vec<To> HighHalf(To to, VD word) {
   return hn::BitCast(to, hn::TruncateTo(hn::Rebind<uint32_t, DD>(), shifted));
 }
 
-// Lanes [i, i + kDoubleLanes) from memory's order to columns.
-HWY_INLINE void SpreadCorners(const QuadPlan& quads, int attributes, int i, SetupInput& in) {
+// The reference vertex is the one farthest from the eye, of those the lowest, of those the leftmost; the others follow
+// counter-clockwise. So planes and edges depend on where the corners are, not on the order they were given in. Farthest
+// since there 1/w is least, and floats round least where they start from.
+struct CornerOrder {
+  hn::Mask<DD> clockwise, second_first, third_first;
+
+  HWY_INLINE CornerOrder(const VD x[3], const VD y[3], const VD w[3]) {
+    const DD d;
+    const VD area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
+                            hn::Mul(hn::Sub(x[2], x[0]), hn::Sub(y[1], y[0])));
+    clockwise = hn::Lt(area, hn::Zero(d));
+    const VD xb = hn::IfThenElse(clockwise, x[2], x[1]), xc = hn::IfThenElse(clockwise, x[1], x[2]);
+    const VD yb = hn::IfThenElse(clockwise, y[2], y[1]), yc = hn::IfThenElse(clockwise, y[1], y[2]);
+    const VD wb = hn::IfThenElse(clockwise, w[2], w[1]), wc = hn::IfThenElse(clockwise, w[1], w[2]);
+    const auto b_first = IsBefore(xb, yb, wb, x[0], y[0], w[0]), c_first = IsBefore(xc, yc, wc, x[0], y[0], w[0]);
+    second_first = hn::AndNot(IsBefore(xc, yc, wc, xb, yb, wb), b_first);
+    third_first = hn::AndNot(second_first, c_first);
+  }
+
+  // Corners of these lanes are in order.
+  HWY_INLINE void Except(hn::Mask<DD> in_order) {
+    for (hn::Mask<DD>* move : {&clockwise, &second_first, &third_first}) *move = hn::AndNot(in_order, *move);
+  }
+
+  HWY_INLINE void Apply(VD v[3]) const { Apply(clockwise, second_first, third_first, v); }
+  HWY_INLINE void Apply(hn::Vec<DDf> v[3]) const {
+    Apply(OfFloats(clockwise), OfFloats(second_first), OfFloats(third_first), v);
+  }
+  HWY_INLINE void Apply(VDi v[3]) const {
+    hn::Vec<DDf> words[3];
+    for (int k = 0; k < 3; ++k) words[k] = hn::BitCast(DDf(), v[k]);
+    Apply(words);
+    for (int k = 0; k < 3; ++k) v[k] = hn::BitCast(DDi(), words[k]);
+  }
+
+ private:
+  static HWY_INLINE hn::Mask<DDf> OfFloats(hn::Mask<DD> mask) {
+#if HWY_TARGET == HWY_AVX3
+    return hn::Mask<DDf>{mask.raw};
+#else
+    return hn::MaskFromVec(LowHalf(DDf(), hn::VecFromMask(DD(), mask)));
+#endif
+  }
+
+  template <class Mask, class V>
+  static HWY_INLINE void Apply(Mask clockwise, Mask second_first, Mask third_first, V v[3]) {
+    const V a = v[0], b = hn::IfThenElse(clockwise, v[2], v[1]), c = hn::IfThenElse(clockwise, v[1], v[2]);
+    v[0] = hn::IfThenElse(second_first, b, hn::IfThenElse(third_first, c, a));
+    v[1] = hn::IfThenElse(second_first, c, hn::IfThenElse(third_first, a, b));
+    v[2] = hn::IfThenElse(second_first, a, hn::IfThenElse(third_first, b, c));
+  }
+
+  // aw, bw: 1/w.
+  static HWY_INLINE hn::Mask<DD> IsBefore(VD ax, VD ay, VD aw, VD bx, VD by, VD bw) {
+    const auto below = hn::Or(hn::Lt(ay, by), hn::And(hn::Eq(ay, by), hn::Lt(ax, bx)));
+    return hn::Or(hn::Lt(aw, bw), hn::And(hn::Eq(aw, bw), below));
+  }
+};
+
+HWY_INLINE hn::Mask<DD> NoLane() { return hn::MaskFromVec(hn::Zero(DD())); }
+
+// Corners of a batch as SetupInput has them.
+struct StagedCorners {
+  static constexpr bool kPlain = false;
+  const SetupInput& in;
+
+  HWY_INLINE void KeepOrdered(int i, CornerOrder& order) const {
+    const hn::RebindToUnsigned<DD> words;
+    order.Except(hn::RebindMask(DD(), hn::Ne(hn::Load(words, in.in_order + i), hn::Zero(words))));
+  }
+  HWY_INLINE void Heads(int k, int i, VD out[4]) const {
+    hn::LoadInterleaved4(DD(), reinterpret_cast<const double*>(in.head[k] + i), out[0], out[1], out[2], out[3]);
+  }
+  HWY_INLINE void Quad(const QuadPlan&, int q, int k, int i, hn::Vec<DDf> out[4]) const {
+    hn::LoadInterleaved4(DDf(), in.quad[k][q][i], out[0], out[1], out[2], out[3]);
+  }
+};
+
+// Whether plain triangles' corners are taken straight from the vertices' records.
+#undef HALFSPACE_DIRECT_CORNERS
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+#define HALFSPACE_DIRECT_CORNERS 1
+#else
+#define HALFSPACE_DIRECT_CORNERS 0
+#endif
+
+#if HALFSPACE_DIRECT_CORNERS
+// Corners of a batch of plain triangles where they lie: nothing is stored narrow to be read wide.
+struct DirectCorners {
+  static constexpr bool kPlain = true;
+  const unsigned char* at[3][kSetupLanes];
+
+  HWY_INLINE DirectCorners(const Segment& segment, const ShadedVertices& vertices, size_t stride, const uint32_t* ids,
+                           int count) {
+    const auto* records = reinterpret_cast<const unsigned char*>(vertices.records);
+    for (int lane = 0; lane < kSetupLanes; ++lane) {  // beyond the batch: some that can be computed with
+      const PrimitiveRef& ref = segment.primitives.data()[ids[lane < count ? lane : 0]];
+      for (int k = 0; k < 3; ++k) at[k][lane] = records + ref.v[k] * stride;
+    }
+  }
+
+  HWY_INLINE void KeepOrdered(int, CornerOrder&) const {}
+
+#if HWY_TARGET == HWY_AVX3
+  HWY_INLINE void Heads(int k, int, VD out[4]) const {
+    const auto two = [&](int a, int b) HWY_ATTR {
+      const __m256d low = _mm256_loadu_pd(reinterpret_cast<const double*>(at[k][a]));
+      return _mm512_insertf64x4(_mm512_castpd256_pd512(low),
+                                _mm256_loadu_pd(reinterpret_cast<const double*>(at[k][b])), 1);
+    };
+    const __m512d a = two(0, 2), b = two(1, 3), c = two(4, 6), e = two(5, 7);
+    const __m512d low_ab = _mm512_unpacklo_pd(a, b), low_ce = _mm512_unpacklo_pd(c, e);
+    const __m512d high_ab = _mm512_unpackhi_pd(a, b), high_ce = _mm512_unpackhi_pd(c, e);
+    out[0] = VD{_mm512_shuffle_f64x2(low_ab, low_ce, 0x88)}, out[2] = VD{_mm512_shuffle_f64x2(low_ab, low_ce, 0xdd)};
+    out[1] = VD{_mm512_shuffle_f64x2(high_ab, high_ce, 0x88)}, out[3] = VD{_mm512_shuffle_f64x2(high_ab, high_ce, 0xdd)};
+  }
+  HWY_INLINE void Quad(const QuadPlan& quads, int q, int k, int, hn::Vec<DDf> out[4]) const {
+    const auto after = static_cast<ptrdiff_t>(sizeof(VertexHead)) + quads.Start(q) * ptrdiff_t{sizeof(float)};
+    const auto two = [&](int a, int b) HWY_ATTR {
+      const __m128 low = _mm_loadu_ps(reinterpret_cast<const float*>(at[k][a] + after));
+      return _mm256_insertf128_ps(_mm256_castps128_ps256(low),
+                                  _mm_loadu_ps(reinterpret_cast<const float*>(at[k][b] + after)), 1);
+    };
+    const __m256 a = two(0, 4), b = two(1, 5), c = two(2, 6), e = two(3, 7);
+    const __m256 low_ac = _mm256_unpacklo_ps(a, c), low_be = _mm256_unpacklo_ps(b, e);
+    const __m256 high_ac = _mm256_unpackhi_ps(a, c), high_be = _mm256_unpackhi_ps(b, e);
+    out[0].raw = _mm256_unpacklo_ps(low_ac, low_be), out[1].raw = _mm256_unpackhi_ps(low_ac, low_be);
+    out[2].raw = _mm256_unpacklo_ps(high_ac, high_be), out[3].raw = _mm256_unpackhi_ps(high_ac, high_be);
+  }
+#else
+  HWY_INLINE void Heads(int k, int i, VD out[4]) const {
+    const auto one = [&](int j) HWY_ATTR { return _mm256_loadu_pd(reinterpret_cast<const double*>(at[k][i + j])); };
+    const __m256d a = one(0), b = one(1), c = one(2), e = one(3);
+    const __m256d low_ab = _mm256_unpacklo_pd(a, b), low_ce = _mm256_unpacklo_pd(c, e);
+    const __m256d high_ab = _mm256_unpackhi_pd(a, b), high_ce = _mm256_unpackhi_pd(c, e);
+    out[0].raw = _mm256_permute2f128_pd(low_ab, low_ce, 0x20), out[2].raw = _mm256_permute2f128_pd(low_ab, low_ce, 0x31);
+    out[1].raw = _mm256_permute2f128_pd(high_ab, high_ce, 0x20);
+    out[3].raw = _mm256_permute2f128_pd(high_ab, high_ce, 0x31);
+  }
+  HWY_INLINE void Quad(const QuadPlan& quads, int q, int k, int i, hn::Vec<DDf> out[4]) const {
+    const auto after = static_cast<ptrdiff_t>(sizeof(VertexHead)) + quads.Start(q) * ptrdiff_t{sizeof(float)};
+    const auto one = [&](int j) HWY_ATTR { return _mm_loadu_ps(reinterpret_cast<const float*>(at[k][i + j] + after)); };
+    __m128 a = one(0), b = one(1), c = one(2), e = one(3);
+    _MM_TRANSPOSE4_PS(a, b, c, e);
+    out[0].raw = a, out[1].raw = b, out[2].raw = c, out[3].raw = e;
+  }
+#endif
+};
+#endif
+
+// Lanes [i, i + kDoubleLanes) from where they lie, `from`, to vectors, and attributes to columns of `in`.
+template <class Corners>
+HWY_INLINE void SpreadCorners(const Corners& from, const QuadPlan& quads, int attributes, int i, CornerVectors& v,
+                              SetupInput& in) {
   const DD d;
   const DDi di;
   const DDf df;
-  VD place[3], z[3], inv_w[3], rest[3], x[3], y[3];
+  VD rest[3];
   for (int k = 0; k < 3; ++k) {
-    hn::LoadInterleaved4(d, reinterpret_cast<const double*>(in.head[k] + i), place[k], z[k], inv_w[k], rest[k]);
-    x[k] = hn::PromoteTo(d, LowHalf(di, place[k]));
-    y[k] = hn::PromoteTo(d, HighHalf(di, place[k]));
+    VD words[4];
+    from.Heads(k, i, words);
+    v.z[k] = words[1], v.inv_w[k] = words[2], rest[k] = words[3];
+    v.place_x[k] = LowHalf(di, words[0]), v.place_y[k] = HighHalf(di, words[0]);
+    v.x[k] = hn::PromoteTo(d, v.place_x[k]), v.y[k] = hn::PromoteTo(d, v.place_y[k]);
   }
-  const hn::RebindToUnsigned<DD> words;
-  const auto in_order = hn::RebindMask(d, hn::Ne(hn::Load(words, in.in_order + i), hn::Zero(words)));
-  const CornerOrder order(x, y, inv_w, in_order);
-  order.Apply(place), order.Apply(z), order.Apply(inv_w), order.Apply(rest);
+  CornerOrder order(v.x, v.y, v.inv_w);
+  from.KeepOrdered(i, order);
+  order.Apply(v.place_x), order.Apply(v.place_y), order.Apply(v.z), order.Apply(v.inv_w), order.Apply(rest);
   for (int k = 0; k < 3; ++k) {
-    hn::Store(LowHalf(di, place[k]), di, in.x[k] + i);
-    hn::Store(HighHalf(di, place[k]), di, in.y[k] + i);
-    hn::Store(z[k], d, in.z[k] + i);
-    hn::Store(inv_w[k], d, in.inv_w[k] + i);
-    hn::Store(hn::PromoteTo(d, LowHalf(df, rest[k])), d, in.rest_x[k] + i);
-    hn::Store(hn::PromoteTo(d, HighHalf(df, rest[k])), d, in.rest_y[k] + i);
+    v.x[k] = hn::PromoteTo(d, v.place_x[k]), v.y[k] = hn::PromoteTo(d, v.place_y[k]);
+    v.rest_x[k] = hn::PromoteTo(d, LowHalf(df, rest[k]));
+    v.rest_y[k] = hn::PromoteTo(d, HighHalf(df, rest[k]));
   }
   for (int q = 0; q < quads.count; ++q) {
-    hn::Vec<DDf> v[3][4];
-    for (int k = 0; k < 3; ++k) hn::LoadInterleaved4(df, in.quad[k][q][i], v[k][0], v[k][1], v[k][2], v[k][3]);
+    hn::Vec<DDf> quad[3][4];
+    for (int k = 0; k < 3; ++k) from.Quad(quads, q, k, i, quad[k]);
     for (int f = 0; f < 4; ++f) {
       const int a = quads.Start(q) + f;
       if (a < 4 * q || a >= attributes) continue;
-      VD value[3] = {hn::PromoteTo(d, v[0][f]), hn::PromoteTo(d, v[1][f]), hn::PromoteTo(d, v[2][f])};
+      hn::Vec<DDf> value[3] = {quad[0][f], quad[1][f], quad[2][f]};
       order.Apply(value);
-      for (int k = 0; k < 3; ++k) hn::Store(value[k], d, in.attribute[a][k] + i);
+      for (int k = 0; k < 3; ++k) hn::Store(value[k], df, in.attribute[a][k] + i);
     }
   }
 }
