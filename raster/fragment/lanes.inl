@@ -88,6 +88,8 @@ HWY_INLINE MF MaskFromBits(uint64_t group) {
 HWY_INLINE unsigned MaskBits(MF mask) {
 #if HWY_TARGET == HWY_SCALAR
   return hn::AllFalse(DF(), mask) ? 0u : 1u;
+#elif HWY_TARGET == HWY_AVX3
+  return _cvtmask16_u32(mask.raw);
 #else
   uint8_t bits[8] = {};
   hn::StoreMaskBits(DF(), mask, bits);
