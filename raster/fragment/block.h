@@ -83,9 +83,13 @@ struct alignas(64) PixelQueue {
   int count = 0;
 };
 
-// As many pixels of a tile as a kernel has lanes: the how many-th such group it is, and which of them are live.
+// As many pixels of a tile as a kernel has lanes: the how many-th such group it is, the primitive it is of, as a lane of
+// its batch, and which pixels are live.
 struct TileGroup {
-  uint16_t index, live;
+  static constexpr int kLaneShift = 12;
+  uint16_t place, live;
+  unsigned index() const { return place & ((1u << kLaneShift) - 1); }
+  int lane() const { return place >> kLaneShift; }
 };
 
 // Blocks side by side that a list of kernels takes in turn, each kernel all of them: what it works out ahead serves all.
@@ -128,8 +132,9 @@ struct alignas(64) BlockContext {
   float* color_planes;    // rgba32f
   const float* coverage;  // of the block's pixels, in [0, 1]; where the program asks for it
   const PixelQueue* queue;  // packed fragments instead of the block's, or unused
-  TileGroup* groups;        // all that a primitive covers of a tile; then colour and depth are the tile's
+  TileGroup* groups;        // what primitives cover of a tile; then colour and depth are the tile's
   int group_count;
+  unsigned group_lanes;     // bits of the lanes that the groups' primitives have in the batch
   StageMeter* meter = nullptr;  // null: nothing is counted
 };
 

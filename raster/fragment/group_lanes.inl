@@ -1,9 +1,80 @@
-// What a primitive covers of a tile, in one call: groups of lanes that are not empty, one after another. What
-// a plane needs is loaded once a primitive; a value is (f0 + dfdy * dy) + dfdx * dx as in lanes.inl, with the
-// same bits. Pixels count from the tile's first, block by block.
+// What primitives cover of a tile, in one call: groups of lanes that are not empty, one after another. A
+// value is (f0 + dfdy * dy) + dfdx * dx as in lanes.inl, with the same bits. Pixels count from the tile's
+// first, block by block.
 
 alignas(64) inline constexpr float kColumnOfLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) inline constexpr float kRowOfLane[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
+
+// Whether a list may hold groups of several primitives of a batch (raster/tile/group_batch.inl). Then what a
+// plane needs is loaded for each group, which costs nothing where an instruction takes it as its operand;
+// else once for all.
+#if HWY_TARGET == HWY_AVX3
+inline constexpr bool kGroupsOfMany = true;
+
+// 0, 1, 2 ...
+struct TileSteps {
+  alignas(64) float single[kTileSize];
+  alignas(64) double wide[kTileSize];
+};
+inline constexpr TileSteps kTileSteps = [] {
+  TileSteps steps{};
+  for (int i = 0; i < kTileSize; ++i) steps.single[i] = static_cast<float>(i), steps.wide[i] = i;
+  return steps;
+}();
+
+struct GroupPlane {
+  const BlockContext& c;
+  int plane;
+  HWY_INLINE GroupPlane(const BlockContext& context, int which) : c(context), plane(which) {}
+  HWY_INLINE VF At(int i) const {
+    const SetupBatch& s = *c.setup;
+    const int lane = c.lane;
+    const __m512 columns = _mm512_castpd_ps(
+        _mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_load_ps(kTileSteps.single + ColumnInTile(i)))));
+    const __m512 rows =
+        _mm512_add_ps(_mm512_load_ps(kRowOfLane), _mm512_set1_ps(kTileSteps.single[RowInTile(i)]));
+    const __m512 dx = _mm512_add_ps(columns, _mm512_set1_ps(s.anchor_x_f[lane]));
+    const __m512 dy = _mm512_add_ps(rows, _mm512_set1_ps(s.anchor_y_f[lane]));
+    const __m512 up = _mm512_mul_ps(dy, _mm512_set1_ps(s.dfdy_f[plane][lane]));
+    const __m512 across = _mm512_mul_ps(dx, _mm512_set1_ps(s.dfdx_f[plane][lane]));
+    return VF{_mm512_add_ps(_mm512_add_ps(up, _mm512_set1_ps(s.f0_f[plane][lane])), across)};
+  }
+};
+
+struct GroupPlaneDouble {
+  const BlockContext& c;
+  int plane;
+  HWY_INLINE GroupPlaneDouble(const BlockContext& context, int which) : c(context), plane(which) {}
+  HWY_INLINE VD At(int i) const {
+    const SetupBatch& s = *c.setup;
+    const int lane = c.lane;
+    const __m512d dx =
+        _mm512_add_pd(_mm512_load_pd(kTileSteps.wide + ColumnInTile(i)), _mm512_set1_pd(s.anchor_x[lane]));
+    const __m512d across = _mm512_mul_pd(dx, _mm512_set1_pd(s.dfdx[plane][lane]));
+    const __m128d dy = _mm_add_pd(_mm_load_pd(kTileSteps.wide + RowInTile(i)), _mm_set1_pd(s.anchor_y[lane]));
+    const __m128d rows =
+        _mm_add_pd(_mm_mul_pd(dy, _mm_set1_pd(s.dfdy[plane][lane])), _mm_set1_pd(s.f0[plane][lane]));
+    VD v;
+    v.part[0] = hn::Vec<DD>{_mm512_add_pd(_mm512_broadcastsd_pd(rows), across)};
+    v.part[1] = hn::Vec<DD>{_mm512_add_pd(_mm512_broadcastsd_pd(_mm_unpackhi_pd(rows, rows)), across)};
+    return v;
+  }
+};
+
+struct GroupLevelPlane {
+  const BlockContext& c;
+  int plane;
+  HWY_INLINE GroupLevelPlane(const BlockContext& context, int which) : c(context), plane(which) {}
+  HWY_INLINE VF At(int) const { return hn::Set(DF(), c.setup->f0_f[plane][c.lane]); }
+};
+
+struct GroupFlatColor {
+  const BlockContext& c;
+  HWY_INLINE explicit GroupFlatColor(const BlockContext& context) : c(context) {}
+  HWY_INLINE VF At(int channel, int) const { return hn::Set(DF(), c.setup->flat[channel][c.lane]); }
+};
+#else
+inline constexpr bool kGroupsOfMany = false;
 
 struct GroupPlane {
   VF f0, dfdx, dfdy;
@@ -12,8 +83,8 @@ struct GroupPlane {
       : f0(hn::Set(DF(), c.setup->f0_f[plane][c.lane])),
         dfdx(hn::Set(DF(), c.setup->dfdx_f[plane][c.lane])),
         dfdy(hn::Set(DF(), c.setup->dfdy_f[plane][c.lane])),
-        x(static_cast<float>(c.setup->anchor_x[c.lane])),
-        y(static_cast<float>(c.setup->anchor_y[c.lane])) {}
+        x(c.setup->anchor_x_f[c.lane]),
+        y(c.setup->anchor_y_f[c.lane]) {}
   HWY_INLINE VF At(int i) const {
     const DF d;
     const VF dx = hn::Add(hn::Load(d, kColumnOfLane), hn::Set(d, x + static_cast<float>(ColumnInTile(i))));
@@ -48,10 +119,15 @@ struct GroupPlaneDouble {
   }
 };
 
+using GroupLevelPlane = LevelPlane;
+using GroupFlatColor = BlockLanes::FlatColor;
+#endif
+
 // kLevelAlpha: the plane of alpha has no slope.
 template <bool kLevelAlpha>
 struct GroupLanes : BlockLanes {
   using Plane = GroupPlane;
-  using PlaneOfAlpha = std::conditional_t<kLevelAlpha, LevelPlane, GroupPlane>;
+  using PlaneOfAlpha = std::conditional_t<kLevelAlpha, GroupLevelPlane, GroupPlane>;
   using PlaneDouble = GroupPlaneDouble;
+  using FlatColor = GroupFlatColor;
 };

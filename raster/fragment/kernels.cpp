@@ -281,23 +281,33 @@ HWY_INLINE void RunListedGroups(BlockContext& c) {
   TileGroup* left = c.groups;
   const TileGroup* const end = c.groups + c.group_count;
   for (const TileGroup* group = c.groups; group != end; ++group) {
-    const int i = group->index * kLanes;
+    const uint16_t place = group->place;
+    const int i = static_cast<int>(group->index()) * kLanes;
+    if constexpr (kGroupsOfMany) c.lane = group->lane();
     Lanes v;
     v.live = MaskFromBits(group->live);
     (Step<L, ids>(c, once, i, v) && ...);
     if constexpr (kKills) {
       const unsigned live = MaskBits(v.live);
-      *left = {static_cast<uint16_t>(i / kLanes), static_cast<uint16_t>(live)};
+      *left = {place, static_cast<uint16_t>(live)};
       left += live != 0 ? 1 : 0;
     }
   }
   if constexpr (kKills) c.group_count = static_cast<int>(left - c.groups);
 }
 
+HWY_INLINE bool AlphaIsLevelInGroups(const BlockContext& c) {
+  const int alpha = c.params->color_plane + 3;
+  unsigned level = 0;
+  for (int lane = 0; lane < kSetupLanes; ++lane)
+    level |= (c.setup->dfdx_f[alpha][lane] == 0 && c.setup->dfdy_f[alpha][lane] == 0 ? 1u : 0u) << lane;
+  return (c.group_lanes & ~level) == 0;
+}
+
 template <StageId... ids>
 void RunTileGroups(BlockContext& c) {
   if constexpr ((TakesAlpha<typename BodyOf<ids>::Type> || ...)) {
-    if (AlphaIsLevel(c)) return RunListedGroups<GroupLanes<true>, ids...>(c);
+    if (AlphaIsLevelInGroups(c)) return RunListedGroups<GroupLanes<true>, ids...>(c);
   }
   RunListedGroups<GroupLanes<false>, ids...>(c);
 }

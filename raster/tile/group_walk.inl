@@ -118,23 +118,34 @@ inline constexpr int kTileGroups = kTileSize * kTileSize / kGroupLanes;
 // What a primitive covers of a tile, block by block.
 struct GroupList {
   TileGroup* groups;
+  int lane;  // the primitive's
   int count = 0;
   uint64_t fragments = 0;
-  HWY_INLINE explicit GroupList(TileGroup* memory) : groups(memory) {}
+  HWY_INLINE GroupList(TileGroup* memory, int primitive) : groups(memory), lane(primitive) {}
   // Without a branch: what is empty is written over by the next one.
   HWY_INLINE void Add(int block, uint64_t mask) {
     for (int i = 0; i < kBlockPixels; i += kGroupLanes) {
       const auto live = static_cast<uint16_t>(mask >> i & ((uint64_t{1} << kGroupLanes) - 1));
-      groups[count] = {static_cast<uint16_t>((block * kBlockPixels + i) / kGroupLanes), live};
+      const int index = (block * kBlockPixels + i) / kGroupLanes;
+      groups[count] = {static_cast<uint16_t>(index | lane << TileGroup::kLaneShift), live};
       count += live != 0 ? 1 : 0;
     }
     fragments += static_cast<uint64_t>(__builtin_popcountll(mask));
   }
+#if HWY_TARGET == HWY_AVX3
+  // Of each lane a group: its place in the lower half, its pixels in the upper one. Without `live` pixels it is none.
+  HWY_INLINE void AddSome(__m512i live, __m512i places) {
+    const __mmask16 any = _mm512_test_epi32_mask(live, live);
+    _mm512_storeu_si512(groups + count, _mm512_maskz_compress_epi32(any, _mm512_or_si512(live, places)));
+    count += __builtin_popcount(any);
+  }
+#endif
 };
 
-// Runs the program on a list in these blocks.
-HWY_INLINE void RunGroups(TileContext& t, int lane, const GroupList& list, uint64_t blocks,
+// Runs the program on a list in these blocks, of primitives that `lanes` are the bits of and that take the same path.
+HWY_INLINE void RunGroups(TileContext& t, unsigned lanes, const GroupList& list, uint64_t blocks,
                           const BlockProgram& stages) {
+  const int lane = __builtin_ctz(lanes);
   if ((t.packer.blocks & blocks) != 0) FlushPacked(t);
   PrepareWindow(t, blocks);
   t.statistics->fragments += list.fragments;
@@ -143,6 +154,7 @@ HWY_INLINE void RunGroups(TileContext& t, int lane, const GroupList& list, uint6
   c.lane = lane;
   c.groups = list.groups;
   c.group_count = list.count;
+  c.group_lanes = lanes;
   if (t.program->reads_depth) c.depth = t.framebuffer->depth_tile(t.tile);
   c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
   if (stages.groups_depth != nullptr) stages.groups_depth(c);
@@ -227,6 +239,7 @@ struct BlockMasks {
   HWY_INLINE void AddTo(GroupList& list, uint64_t blocks) const {
     const int first = __builtin_ctzll(blocks) / 8, last = (63 - __builtin_clzll(blocks)) / 8;
     const __m512i index = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const int lane_bits = list.lane << TileGroup::kLaneShift;
     for (int row = first; row <= last; ++row) {
       const __m512i some =
           _mm512_maskz_loadu_epi64(static_cast<__mmask8>(blocks >> (row * 8)), masks + row * 8);
@@ -236,11 +249,7 @@ struct BlockMasks {
       for (int half = 0; half < 2; ++half) {
         const __m256i words = half == 0 ? _mm512_castsi512_si256(some) : _mm512_extracti64x4_epi64(some, 1);
         const __m512i live = _mm512_slli_epi32(_mm512_cvtepu16_epi32(words), 16);
-        const __mmask16 any = _mm512_test_epi32_mask(live, live);
-        const __m512i groups =
-            _mm512_or_si512(live, _mm512_add_epi32(index, _mm512_set1_epi32(row * 32 + half * 16)));
-        _mm512_storeu_si512(list.groups + list.count, _mm512_maskz_compress_epi32(any, groups));
-        list.count += __builtin_popcount(any);
+        list.AddSome(live, _mm512_add_epi32(index, _mm512_set1_epi32(lane_bits | (row * 32 + half * 16))));
       }
     }
   }
@@ -280,7 +289,7 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
     covered = 0;
   }
   if (touched == 0) return;
-  GroupList list(t.groups);
+  GroupList list(t.groups, lane);
   if (!t.masks_blocks) {
     masks.AddTo(list, touched);
   } else {
@@ -290,7 +299,7 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
     }
   }
   if (list.count == 0) return;
-  RunGroups(t, lane, list, touched, stages);
+  RunGroups(t, 1u << lane, list, touched, stages);
   if (covered != 0 && t.program->depth_pass_lowers) LowerDepthMax(t, lane, covered);
 }
 

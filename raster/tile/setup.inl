@@ -344,6 +344,8 @@ HWY_INLINE void CopyPlanes(const Segment& segment, const CutTriangle& cut, const
   out.variant[lane] = kDouble;
   out.anchor_x[lane] = (center_x - source.x0) * (1.0 / kSubpixelScale);
   out.anchor_y[lane] = (center_y - source.y0) * (1.0 / kSubpixelScale);
+  out.anchor_x_f[lane] = static_cast<float>(out.anchor_x[lane]);
+  out.anchor_y_f[lane] = static_cast<float>(out.anchor_y[lane]);
 }
 
 HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, const PrimitiveRef& ref,
@@ -438,8 +440,12 @@ HWY_NOINLINE void FinishLanes(const Segment& segment, const DrawRecord& draw, co
 HWY_INLINE void SetAnchor(const CornerVectors& v, int i, VD center_x, VD center_y, SetupBatch& out) {
   const DD d;
   const VD pixel = hn::Set(d, 1.0 / kSubpixelScale);
-  hn::Store(hn::Mul(hn::Sub(center_x, v.x[0]), pixel), d, out.anchor_x + i);
-  hn::Store(hn::Mul(hn::Sub(center_y, v.y[0]), pixel), d, out.anchor_y + i);
+  const VD x = hn::Mul(hn::Sub(center_x, v.x[0]), pixel), y = hn::Mul(hn::Sub(center_y, v.y[0]), pixel);
+  hn::Store(x, d, out.anchor_x + i);
+  hn::Store(y, d, out.anchor_y + i);
+  const DDf f;
+  hn::Store(hn::DemoteTo(f, x), f, out.anchor_x_f + i);
+  hn::Store(hn::DemoteTo(f, y), f, out.anchor_y_f + i);
 }
 
 // What set-up makes of the corners of a batch, which lie as `from` knows.

@@ -22,6 +22,7 @@ struct alignas(64) SetupBatch {
   alignas(64) int32_t min_x[kSetupLanes], min_y[kSetupLanes], max_x[kSetupLanes], max_y[kSetupLanes];
   // Centre of the tile's lowest-left pixel minus the anchor vertex, in pixels: exact also as floats.
   alignas(64) double anchor_x[kSetupLanes], anchor_y[kSetupLanes];
+  alignas(32) float anchor_x_f[kSetupLanes], anchor_y_f[kSetupLanes];
   // Planes: [0] depth in units of 2^-24 plus one half, [1] 1/w, [2 + i] attribute i (divided by w unless affine;
   // colours in 0..255).
   alignas(64) double f0[kMaxPlanes][kSetupLanes], dfdx[kMaxPlanes][kSetupLanes], dfdy[kMaxPlanes][kSetupLanes];

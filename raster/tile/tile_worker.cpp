@@ -249,6 +249,7 @@ void TakeWholeBlocks(TileContext& t, int lane, uint64_t covered, const BlockProg
 }
 
 #include "raster/tile/group_walk.inl"
+#include "raster/tile/group_batch.inl"
 #include "raster/tile/pixel_batch.inl"
 
 void WalkTriangle(TileContext& t, int lane, bool packs) {
@@ -324,6 +325,34 @@ HWY_INLINE bool AreTriangles(const Segment& segment, const uint32_t* ids, int co
   return all;
 }
 
+void RunTriangles(TileContext& t, int count) {
+  const unsigned listable = ListableTriangles(t, count);
+  if (listable == (1u << count) - 1) return ListTriangles(t, listable);
+  GroupBatch groups(t, count);
+  for (int lane = 0; lane < count;) {
+    const int run = __builtin_ctz(~(listable >> lane));
+    if (run == 0 && groups.Add(lane)) {
+      ++lane;
+      continue;
+    }
+    groups.Draw();
+    if (run != 0) ListTriangles(t, ((1u << run) - 1) << lane);
+    else RunTriangle(t, lane);
+    lane += run != 0 ? run : 1;
+  }
+  groups.Draw();
+}
+
+// Primitives ids[first .. count) of a batch.
+void RunOneByOne(TileContext& t, const Segment& segment, const DrawRecord& record, const uint32_t* ids, int first,
+                 int count) {
+  for (int lane = first; lane < count; ++lane) {
+    const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
+    if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
+    else RunShape(t, ref, segment, record, lane);
+  }
+}
+
 void RunSegment(TileContext& t, const Segment& segment) {
   const auto& bin = segment.bins.data()[t.tile];
   const uint32_t* ids = bin.data();
@@ -361,15 +390,8 @@ void RunSegment(TileContext& t, const Segment& segment) {
       const size_t next = at + static_cast<size_t>(count);
       PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + next,
                       total - next < kSetupLanes ? total - next : kSetupLanes);
-      const unsigned listable = lines || !AreTriangles(segment, ids + at, count) ? 0 : ListableTriangles(t, count);
-      for (int lane = drawn; lane < count;) {
-        const PrimitiveRef& ref = segment.primitives.data()[ids[at + static_cast<size_t>(lane)]];
-        const int run = __builtin_ctz(~(listable >> lane));
-        if (run != 0) ListTriangles(t, ((1u << run) - 1) << lane);
-        else if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
-        else RunShape(t, ref, segment, record, lane);
-        lane += run != 0 ? run : 1;
-      }
+      if (!lines && AreTriangles(segment, ids + at, count)) RunTriangles(t, count);
+      else RunOneByOne(t, segment, record, ids + at, drawn, count);
       at = next;
     }
   }

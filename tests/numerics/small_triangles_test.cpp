@@ -34,30 +34,34 @@ DrawState any_state(Random& random) {
   return state;
 }
 
-Vertex any_corner(Random& random, int64_t x, int64_t y, int64_t reach, float w) {
+// On every `grid`-th place of 1/256 px.
+Vertex any_corner(Random& random, int64_t x, int64_t y, int64_t reach, int64_t grid, float w) {
   std::array<float, 4> c{};
   for (float& channel : c) channel = random.real(0, 1);
-  Vertex v = snapped_vertex(x + random.integer(-reach, reach), y + random.integer(-reach, reach), kViewport,
-                            random.real(-0.9f, 0.9f), {c[0], c[1], c[2], c[3]});
+  const int64_t at_x = x + random.integer(-reach, reach), at_y = y + random.integer(-reach, reach);
+  Vertex v = snapped_vertex(at_x / grid * grid, at_y / grid * grid, kViewport, random.real(-0.9f, 0.9f),
+                            {c[0], c[1], c[2], c[3]});
   v.x *= w, v.y *= w, v.z *= w, v.w = w;
   return v;
 }
 
-// Up to 40 triangles around a place. Sizes go from some that are listed to some that go by groups of lanes.
+// Up to 40 triangles around a place. Sizes go from some that are listed to some that go by groups of lanes,
+// together up to edges of 64 pixels and else alone. On a grid of half pixels most edges pass through centres.
 std::vector<Vertex> any_heap(Random& random) {
   const int64_t x = random.integer(-5 * 256, (kWidth + 5) * 256),
                 y = random.integer(-5 * 256, (kHeight + 5) * 256);
   const int64_t spread = random.integer(0, 12 * 256);
   const bool one_size = random.integer(0, 1) != 0, perspective = random.integer(0, 4) == 0;
+  const int64_t grid = random.integer(0, 2) == 0 ? 128 : 1;
   int64_t reach = random.integer(100, 4 * 256);
   std::vector<Vertex> list;
   for (auto n = random.integer(1, 40); n > 0; --n) {
     if (!one_size)
-      reach = random.integer(1, 4) == 1 ? random.integer(0, 25 * 256) : random.integer(0, 3 * 256);
+      reach = random.integer(1, 4) == 1 ? random.integer(0, 36 * 256) : random.integer(0, 3 * 256);
     const int64_t dx = random.integer(-spread, spread), dy = random.integer(-spread, spread);
     for (int i = 0; i < 3; ++i) {
       const float w = perspective ? static_cast<float>(1 << random.integer(0, 2)) : 1;
-      list.push_back(any_corner(random, x + dx, y + dy, reach, w));
+      list.push_back(any_corner(random, x + dx, y + dy, reach, grid, w));
     }
   }
   return list;
