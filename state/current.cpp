@@ -1,6 +1,10 @@
 #include "state/current.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 
 #include "state/context.h"
 #include "state/get.h"
@@ -13,13 +17,14 @@ void color(Context& context, GLfloat r, GLfloat g, GLfloat b, GLfloat a) {
   float* c = context.current.color;
   ImmediateState& immediate = context.immediate;
   // Only a change after the batch's first vertex makes the colour vary; outside Begin/End cursor and start
-  // differ from nothing that is drawn.
-  const bool differs = (c[0] != r) | (c[1] != g) | (c[2] != b) | (c[3] != a);
+  // differ from nothing that is drawn. Other bits are another colour: two words are compared sooner than four floats.
+  using Words = std::array<uint64_t, 2>;
+  const auto next = std::bit_cast<Words>(std::array{r, g, b, a});
+  Words last;
+  std::memcpy(&last, c, sizeof last);
+  const bool differs = ((next[0] ^ last[0]) | (next[1] ^ last[1])) != 0;
   immediate.color_varies |= differs & (immediate.cursor != immediate.buffer.data());
-  c[0] = r;
-  c[1] = g;
-  c[2] = b;
-  c[3] = a;
+  std::memcpy(c, &next, sizeof next);
 }
 
 void normal(Context& context, GLfloat x, GLfloat y, GLfloat z) {
