@@ -58,6 +58,19 @@ HWY_INLINE VI TruncateInRange(VF v) {
 #endif
 }
 
+// To the nearest, of two the even one; for such values, too.
+HWY_INLINE VI NearestInRange(VF v) {
+#if HWY_TARGET == HWY_AVX3
+  return VI{_mm512_cvtps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  return VI{_mm256_cvtps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_SSE4
+  return VI{_mm_cvtps_epi32(v.raw)};
+#else
+  return hn::NearestInt(v);
+#endif
+}
+
 // Iota is always taken from 0, a constant: from a variable it goes through memory and stalls.
 
 // What the stages of a fused kernel hand on in registers.

@@ -120,7 +120,7 @@ void add_lookup(const TextureView& view, const Accuracy& accuracy, bool projecti
     return list.add(sample_nearest);
   }
   if (accuracy.filter == Level::draft) {
-    list.add(footprint_draft);
+    list.add(repeat ? footprint_draft_repeat : footprint_draft);
     return list.add(sample_linear_draft);
   }
   list.add(repeat ? footprint_repeat : footprint);

@@ -329,6 +329,10 @@ struct Footprint {
   }
 };
 
+// A coordinate under REPEAT: in [0, 1] for whatever number; what is none becomes 0 (the first operand's, in Max), since
+// dead lanes are looked up.
+HWY_INLINE VF InOneTurn(VF v) { return hn::Max(hn::Sub(v, hn::Floor(v)), hn::Zero(DF())); }
+
 // The same for REPEAT both ways.
 struct FootprintRepeat {
   static constexpr bool kKills = false, kPacks = true, kInTiles = true;
@@ -346,7 +350,7 @@ struct FootprintRepeat {
   };
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int, Lanes& v) {
-    const VF s = Fraction(v.slot[kS]), t = Fraction(v.slot[kT]), half = hn::Set(DF(), 0.5f);
+    const VF s = InOneTurn(v.slot[kS]), t = InOneTurn(v.slot[kT]), half = hn::Set(DF(), 0.5f);
     const VF x = hn::Sub(hn::Mul(s, once.width), half), y = hn::Sub(hn::Mul(t, once.height), half);
     const VF x0 = hn::Floor(x), y0 = hn::Floor(y);
     v.slot[kS] = hn::Sub(x, x0);
@@ -354,10 +358,6 @@ struct FootprintRepeat {
     const VI row = hn::Mul(TruncateInRange(y0), once.pitch);
     v.slot[kOffset] = hn::BitCast(DF(), hn::Add(row, hn::Add(TruncateInRange(x0), once.first)));
   }
-
- private:
-  // In [0, 1] for whatever number; what is none becomes 0 (the first operand's, in Max), since dead lanes are looked up.
-  static HWY_INLINE VF Fraction(VF v) { return hn::Max(hn::Sub(v, hn::Floor(v)), hn::Zero(DF())); }
 };
 
 // kOpaque: every texel is.
@@ -383,29 +383,34 @@ HWY_INLINE VI FixedCoord(VF s, VF size, Wrap wrap) {
   return hn::Sub(hn::NearestInt(hn::Mul(u, hn::Set(DF(), 256.0f))), hn::Set(DI(), 128));
 }
 
-// As FindPlace; the weights' floats hold integers, in 1/256.
+// A weight in 1/256, as MixBytes takes it: times 128, in both halves of a lane.
+HWY_INLINE VF DraftWeight(VI coord) {
+  const VI weight = hn::And(hn::ShiftLeft<7>(coord), hn::Set(DI(), 255 << 7));
+  return hn::BitCast(DF(), hn::Or(weight, hn::ShiftLeft<16>(weight)));
+}
+
+// As FindPlace; the weights are those of DraftWeight.
 HWY_INLINE Place FindPlaceDraft(const LevelRef& level, Wrap wrap_s, Wrap wrap_t, VF s, VF t) {
   const DF d;
   const DI di;
   const VI x = FixedCoord(s, hn::Set(d, level.width), wrap_s), y = FixedCoord(t, hn::Set(d, level.height), wrap_t);
   const VI i = HeldIndex(hn::ShiftRight<8>(x), hn::Set(di, level.width_i), -1);
   const VI j = HeldIndex(hn::ShiftRight<8>(y), hn::Set(di, level.height_i), -1);
-  const VI byte = hn::Set(di, 255);
-  return {TexelOffset(level, i, j), hn::BitCast(d, hn::And(x, byte)), hn::BitCast(d, hn::And(y, byte))};
+  return {TexelOffset(level, i, j), DraftWeight(x), DraftWeight(y)};
 }
 
-// The step on two channels a lane, bytes 0 and 2. The products wrap round at 16 bits, and only their bits 8 to 15 count.
+// The step on two channels a lane, bytes 0 and 2. A product that MulFixedPoint15 rounds is (x * y + 2^14) >> 15; with
+// the weight times 128 that is the step's.
 HWY_INLINE VU MixBytes(VU a, VU b, VU weight) {
 #if HWY_TARGET == HWY_SCALAR
   const auto from = static_cast<int32_t>(hn::GetLane(a)), to = static_cast<int32_t>(hn::GetLane(b));
-  const auto f = static_cast<int32_t>(hn::GetLane(weight) & 255u);
+  const auto f = static_cast<int32_t>(hn::GetLane(weight) >> 7 & 255u);
   const auto mix = [f](int32_t x, int32_t y) { return x + ((f * (y - x) + 128) >> 8); };
   return hn::Set(DU(), static_cast<uint32_t>(mix(from & 255, to & 255) | mix(from >> 16, to >> 16) << 16));
 #else
-  const hn::Repartition<uint16_t, DU> d;
+  const hn::Repartition<int16_t, DU> d;
   const auto x = hn::BitCast(d, a), y = hn::BitCast(d, b);
-  const auto step = hn::ShiftRight<8>(hn::Add(hn::Mul(hn::BitCast(d, weight), hn::Sub(y, x)), hn::Set(d, 128)));
-  return hn::BitCast(DU(), hn::And(hn::Add(x, step), hn::Set(d, 255)));
+  return hn::BitCast(DU(), hn::Add(x, hn::MulFixedPoint15(hn::Sub(y, x), hn::BitCast(d, weight))));
 #endif
 }
 
@@ -414,21 +419,18 @@ HWY_INLINE void LookLinearDraft(const LevelRef& level, const LaneOffsets& offset
   const DI di;
   const DU du;
   const Footprints texels = LoadFootprints(offsets, level.texels, level.texels + level.pitch);
-  const VU pair = hn::Set(du, 0x00ff00ffu);
-  VU x = hn::BitCast(du, wu), y = hn::BitCast(du, wv);
-  x = hn::Or(x, hn::ShiftLeft<16>(x));
-  y = hn::Or(y, hn::ShiftLeft<16>(y));
-  const auto even = [&](VU t) HWY_ATTR { return hn::And(t, pair); };
-  const auto odd = [&](VU t) HWY_ATTR { return hn::And(hn::ShiftRight<8>(t), pair); };
-  const VU rb = MixBytes(MixBytes(even(texels.low.first), even(texels.low.second), x),
-                         MixBytes(even(texels.high.first), even(texels.high.second), x), y);
-  const VU ga = MixBytes(MixBytes(odd(texels.low.first), odd(texels.low.second), x),
-                         MixBytes(odd(texels.high.first), odd(texels.high.second), x), y);
+  const VU x = hn::BitCast(du, wu), y = hn::BitCast(du, wv);
+  const auto mix = [](const WidePixel& a, const WidePixel& b, VU weight) HWY_ATTR {
+    return WidePixel{MixBytes(a.rb, b.rb, weight), MixBytes(a.ga, b.ga, weight)};
+  };
+  const WidePixel low = mix(Widen(texels.low.first), Widen(texels.low.second), x);
+  const WidePixel high = mix(Widen(texels.high.first), Widen(texels.high.second), x);
+  const WidePixel sum = mix(low, high, y);
   const VU byte = hn::Set(du, 255u);
-  v.slot[kTexR] = hn::ConvertTo(d, hn::BitCast(di, hn::And(rb, byte)));
-  v.slot[kTexG] = hn::ConvertTo(d, hn::BitCast(di, hn::And(ga, byte)));
-  v.slot[kTexB] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(rb)));
-  v.slot[kTexA] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(ga)));
+  v.slot[kTexR] = hn::ConvertTo(d, hn::BitCast(di, hn::And(sum.rb, byte)));
+  v.slot[kTexG] = hn::ConvertTo(d, hn::BitCast(di, hn::And(sum.ga, byte)));
+  v.slot[kTexB] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(sum.rb)));
+  v.slot[kTexA] = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(sum.ga)));
 }
 
 struct FootprintDraft {
@@ -443,6 +445,33 @@ struct FootprintDraft {
     v.slot[kS] = place.wu;
     v.slot[kT] = place.wv;
     v.slot[kOffset] = hn::BitCast(DF(), place.offset);
+  }
+};
+
+// The same for REPEAT both ways.
+struct FootprintDraftRepeat {
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
+  template <class L>
+  struct Once {
+    VF width, height;  // in 1/256 texels
+    VI pitch, first;
+    HWY_INLINE explicit Once(const BlockContext& c) {
+      const LevelRef& level = c.params->levels[0];
+      width = hn::Set(DF(), level.width * 256.0f);
+      height = hn::Set(DF(), level.height * 256.0f);
+      pitch = hn::Set(DI(), level.pitch);
+      first = hn::Set(DI(), level.pitch + 1);
+    }
+  };
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int, Lanes& v) {
+    const VI half = hn::Set(DI(), 128);
+    const VI x = hn::Sub(NearestInRange(hn::Mul(InOneTurn(v.slot[kS]), once.width)), half);
+    const VI y = hn::Sub(NearestInRange(hn::Mul(InOneTurn(v.slot[kT]), once.height)), half);
+    v.slot[kS] = DraftWeight(x);
+    v.slot[kT] = DraftWeight(y);
+    const VI row = hn::Mul(hn::ShiftRight<8>(y), once.pitch);
+    v.slot[kOffset] = hn::BitCast(DF(), hn::Add(row, hn::Add(hn::ShiftRight<8>(x), once.first)));
   }
 };
 
