@@ -33,7 +33,7 @@ class Batch {
   // True if nothing of it would be seen after the clear.
   bool is_covered_by(const ClearCommand& command, const Framebuffer::Impl& target) const;
   bool empty() const { return pending_.empty(); }
-  // Enough to be executed: memory stays bounded whatever a frame draws. `scale`: of all limits.
+  // Enough to be executed: memory stays bounded whatever a frame draws. `scale`: of the limits.
   bool is_full(uint32_t scale) const;
   // Tiles with something to draw, or all of them, as tasks for `workers`: ends[w] ends the stretch of worker
   // w, which is dealt the same tiles each time.
@@ -48,6 +48,7 @@ class Batch {
 
  private:
   void note_texture(const TextureView& view);
+  bool ends_with_triangle() const;
 
   std::vector<std::unique_ptr<Segment>> all_segments_;
   std::vector<Segment*> pending_;

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "raster/batch.h"
+#include "raster/primitive/window_box.h"
 #include "raster/recycled.h"
+#include "raster/surface/framebuffer.h"
 
 namespace {
 
@@ -90,6 +92,28 @@ TEST_F(BatchTest, ManySmallDrawsFillIt) {
   for (; !batch.is_full(1) && draws < 100000; ++draws) batch.draws.emplace_back();
   EXPECT_GE(draws, 16);
   EXPECT_LE(draws, 1024) << "several kilobytes each";
+}
+
+// How many primitives of a kind fill a batch, dealt to so many tiles in turn.
+size_t primitives_to_fill(PrimitiveKind kind, int tiles) {
+  const Framebuffer::Impl framebuffer(16 * kTileSize, 16 * kTileSize, ColorFormat::rgba8, 1);
+  Batch batch;
+  Segment& segment = batch.open_segment(framebuffer);
+  const PrimitiveRef one{{0, 1, 2}, kind, false, false, 0};
+  for (uint32_t i = 0; !batch.is_full(1) && i < 1000000; ++i) {
+    segment.primitives.push_back(one);
+    const int tile = static_cast<int>(i) % tiles;
+    push_to_bin(segment, tile % 16, tile / 16, i);
+  }
+  return segment.primitives.size();
+}
+
+TEST_F(BatchTest, TrianglesThatLieScatteredAreCollectedLonger) {
+  const size_t dense = primitives_to_fill(PrimitiveKind::triangle, 4);
+  EXPECT_LE(dense, 16384u) << "their vertices are to stay in the cache";
+  EXPECT_GE(primitives_to_fill(PrimitiveKind::triangle, 256), 4 * dense);
+  EXPECT_LE(primitives_to_fill(PrimitiveKind::triangle, 256), 16 * dense) << "memory is bounded";
+  EXPECT_EQ(primitives_to_fill(PrimitiveKind::line, 256), dense);
 }
 
 TEST(RecycledTest, ObjectsStayInPlaceAndComeBackFresh) {
