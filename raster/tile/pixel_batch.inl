@@ -149,46 +149,56 @@ HWY_NOINLINE void PackAllListed(TileContext& t) {
   list.count = 0;
   list.blocks = 0;
 }
+// Pixels of a window row by row, windows of each width: a vector holds as many rows as go into it, whole or not.
+struct WindowLanes {
+  // Of pixel i of a window: column and row, as the 16-bit halves of a word; the same in the places of a code.
+  alignas(64) uint32_t places[kWindow][kBlockPixels], codes[kWindow][kBlockPixels];
+};
+inline constexpr WindowLanes kWindowLanes = [] {
+  WindowLanes lanes{};
+  for (uint32_t width = 1; width <= kWindow; ++width) {
+    for (uint32_t i = 0; i < kBlockPixels; ++i) {
+      lanes.places[width - 1][i] = i % width | (i / width) << 16;
+      lanes.codes[width - 1][i] = i % width | (i / width) << 6;
+    }
+  }
+  return lanes;
+}();
+
 // What is the same for the pixels of a triangle, of eight triangles at once.
 struct ListedWindows {
-  alignas(64) int32_t edge[3][kSetupLanes];  // at the window's first pixel
-  alignas(32) int32_t code[kSetupLanes];     // of that pixel
-  alignas(64) uint64_t box[kSetupLanes];     // pixels of the window to look at
+  alignas(32) int32_t edge[3][kSetupLanes];  // at the window's first pixel
+  alignas(32) int32_t step[3][kSetupLanes];  // along a row and a column, in 16 bits each
+  alignas(32) int32_t code[kSetupLanes];     // of the first pixel
+  alignas(32) int32_t side[kSetupLanes];     // pixels of a row, less one
+  alignas(32) int32_t pixels[kSetupLanes];   // of the window
+  __mmask8 above_16, above_32;               // lanes of more pixels than that
   uint64_t blocks;                           // of all
 
-  // A window is `kSide` pixels wide and high, 8 or 4.
-  template <int kSide>
-  HWY_INLINE void Make(const SetupBatch& s, __m256i width, __m256i height, __mmask8 lanes) {
-    const __m256i x = _mm256_load_si256(reinterpret_cast<const __m256i*>(s.min_x));
-    const __m256i y = _mm256_load_si256(reinterpret_cast<const __m256i*>(s.min_y));
+  HWY_INLINE ListedWindows(const SetupBatch& s, __m256i width, __m256i height, __mmask8 lanes) {
     const auto load = [](const int32_t* from)
                           HWY_ATTR { return _mm256_load_si256(reinterpret_cast<const __m256i*>(from)); };
+    const auto store = [](__m256i v, int32_t* to) HWY_ATTR { _mm256_store_si256(reinterpret_cast<__m256i*>(to), v); };
+    const __m256i x = load(s.min_x), y = load(s.min_y), one = _mm256_set1_epi32(1);
     for (int k = 0; k < 3; ++k) {
-      const __m256i moved = _mm256_add_epi32(_mm256_mullo_epi32(load(s.step_x[k]), x),
-                                             _mm256_mullo_epi32(load(s.step_y[k]), y));
-      _mm256_store_si256(reinterpret_cast<__m256i*>(edge[k]), _mm256_add_epi32(load(s.edge[k]), moved));
+      const __m256i right = load(s.step_x[k]), up = load(s.step_y[k]);
+      const __m256i moved = _mm256_add_epi32(_mm256_mullo_epi32(right, x), _mm256_mullo_epi32(up, y));
+      store(_mm256_add_epi32(load(s.edge[k]), moved), edge[k]);
+      store(_mm256_blend_epi16(right, _mm256_slli_epi32(up, 16), 0xaa), step[k]);
     }
     const __m256i lane = _mm256_setr_epi32(0, 1 << 12, 2 << 12, 3 << 12, 4 << 12, 5 << 12, 6 << 12, 7 << 12);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(code),
-                       _mm256_or_si256(lane, _mm256_or_si256(_mm256_slli_epi32(y, 6), x)));
-    MakeBoxes<kSide>(width, height);
-    MakeBlocks(x, y, _mm256_add_epi32(x, width), _mm256_add_epi32(y, height), lanes);
+    store(_mm256_or_si256(lane, _mm256_or_si256(_mm256_slli_epi32(y, 6), x)), code);
+    store(width, side);
+    const __m256i count = _mm256_mullo_epi32(_mm256_add_epi32(width, one), _mm256_add_epi32(height, one));
+    store(count, pixels);
+    above_16 = _mm256_mask_cmpgt_epi32_mask(lanes, count, _mm256_set1_epi32(16));
+    above_32 = _mm256_mask_cmpgt_epi32_mask(lanes, count, _mm256_set1_epi32(32));
+    FindBlocks(x, y, _mm256_add_epi32(x, width), _mm256_add_epi32(y, height), lanes);
   }
 
  private:
-  template <int kSide>
-  HWY_INLINE void MakeBoxes(__m256i width, __m256i height) {
-    const __m512i w = _mm512_cvtepi32_epi64(width), h = _mm512_cvtepi32_epi64(height);
-    const __m512i row = _mm512_sub_epi64(_mm512_sllv_epi64(_mm512_set1_epi64(2), w), _mm512_set1_epi64(1));
-    const __m512i columns = _mm512_mullo_epi32(row, _mm512_set1_epi32(kSide == 8 ? 0x01010101 : 0x1111));
-    const __m512i all = kSide == 8 ? _mm512_or_si512(columns, _mm512_slli_epi64(columns, 32)) : columns;
-    const __m512i beyond =
-        _mm512_sllv_epi64(_mm512_set1_epi64(-1 << kSide), _mm512_slli_epi64(h, kSide == 8 ? 3 : 2));
-    _mm512_store_si512(box, _mm512_andnot_si512(beyond, all));
-  }
-
   // As WindowBlocks.
-  HWY_INLINE void MakeBlocks(__m256i x0, __m256i y0, __m256i x1, __m256i y1, __mmask8 lanes) {
+  HWY_INLINE void FindBlocks(__m256i x0, __m256i y0, __m256i x1, __m256i y1, __mmask8 lanes) {
     const __m256i one = _mm256_set1_epi32(1), high = _mm256_set1_epi32(~7);
     const __m512i columns = _mm512_cvtepu32_epi64(_mm256_or_si256(
         _mm256_sllv_epi32(one, _mm256_srai_epi32(x0, 3)), _mm256_sllv_epi32(one, _mm256_srai_epi32(x1, 3))));
@@ -198,35 +208,39 @@ struct ListedWindows {
   }
 };
 
-template <int kSide>
-HWY_INLINE void ListLane(const SetupBatch& s, const ListedWindows& windows, int lane, ListedPixels& list) {
-  constexpr int kRows = kListLanes / kSide;  // a vector's
-  const __m512i index = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const __m512i column = _mm512_and_si512(index, _mm512_set1_epi32(kSide - 1));
-  const __m512i row = _mm512_srli_epi32(index, kSide == 8 ? 3 : 2);
-  __m512i e[3], step[3];
-  for (int k = 0; k < 3; ++k) {
-    const __m512i up = _mm512_set1_epi32(s.step_y[k][lane]);
-    e[k] = _mm512_add_epi32(_mm512_mullo_epi32(column, _mm512_set1_epi32(s.step_x[k][lane])),
-                            _mm512_mullo_epi32(row, up));
-    e[k] = _mm512_add_epi32(e[k], _mm512_set1_epi32(windows.edge[k][lane]));
-    step[k] = _mm512_slli_epi32(up, 1);
+// Lists the pixels inside a triangle, of a vector of its window at a time.
+struct WindowLister {
+  const uint32_t *places, *codes;
+  __m512i edge[3], step[3], code, pixels;
+
+  HWY_INLINE WindowLister(const ListedWindows& windows, int lane)
+      : places(kWindowLanes.places[windows.side[lane]]),
+        codes(kWindowLanes.codes[windows.side[lane]]),
+        code(_mm512_set1_epi32(windows.code[lane])),
+        pixels(_mm512_set1_epi32(windows.pixels[lane])) {
+    for (int k = 0; k < 3; ++k) {
+      edge[k] = _mm512_set1_epi32(windows.edge[k][lane]);
+      step[k] = _mm512_set1_epi32(windows.step[k][lane]);
+    }
   }
-  __m512i codes = _mm512_add_epi32(_mm512_or_si512(column, _mm512_slli_epi32(row, 6)),
-                                   _mm512_set1_epi32(windows.code[lane]));
-  const uint64_t box = windows.box[lane];
-  int count = list.count;
-  for (int i = 0; i < kSide * kSide; i += kListLanes) {
-    const __m512i outside = _mm512_or_si512(_mm512_or_si512(e[0], e[1]), e[2]);
-    const auto inside = static_cast<__mmask16>(
-        _mm512_mask_cmpge_epi32_mask(static_cast<__mmask16>(box >> i), outside, _mm512_setzero_si512()));
-    _mm512_storeu_si512(list.codes + count, _mm512_maskz_compress_epi32(inside, codes));
-    count += __builtin_popcount(inside);
-    codes = _mm512_add_epi32(codes, _mm512_set1_epi32(kRows << 6));
-    for (int k = 0; k < 3; ++k) e[k] = _mm512_add_epi32(e[k], step[k]);
+
+  // After the first `count` of the list; gives how many there are then.
+  template <int kVector>
+  HWY_INLINE int List(uint32_t* list, int count) const {
+    constexpr int kFirst = kVector * kListLanes;
+    const __m512i place = _mm512_load_si512(places + kFirst);
+    const auto at = [&](int k) HWY_ATTR { return _mm512_add_epi32(_mm512_madd_epi16(place, step[k]), edge[k]); };
+    const __m512i outside = _mm512_or_si512(_mm512_or_si512(at(0), at(1)), at(2));
+    const __m512i index = _mm512_setr_epi32(kFirst, kFirst + 1, kFirst + 2, kFirst + 3, kFirst + 4, kFirst + 5, kFirst + 6,
+                                            kFirst + 7, kFirst + 8, kFirst + 9, kFirst + 10, kFirst + 11, kFirst + 12,
+                                            kFirst + 13, kFirst + 14, kFirst + 15);
+    const __mmask16 inside = _mm512_mask_cmpge_epi32_mask(_mm512_cmplt_epi32_mask(index, pixels), outside,
+                                                          _mm512_setzero_si512());
+    const __m512i found = _mm512_add_epi32(_mm512_load_si512(codes + kFirst), code);
+    _mm512_storeu_si512(list + count, _mm512_maskz_compress_epi32(inside, found));
+    return count + __builtin_popcount(inside);
   }
-  list.count = count;
-}
+};
 
 struct WindowSizes {
   __m256i width, height;  // of the pixels to look at, less one
@@ -246,6 +260,12 @@ struct WindowSizes {
   }
 };
 
+// Triangles whose edges' steps fit in 16 bits. Of a large one, a window may be all that the draw's bounds leave.
+HWY_INLINE __mmask8 ShortSides(const SetupBatch& s) {
+  const __m256i size = _mm256_load_si256(reinterpret_cast<const __m256i*>(s.size));
+  return _mm256_cmplt_epi32_mask(size, _mm256_set1_epi32(1 << 15));
+}
+
 // Of the first `count` triangles of the batch, those of one variant that may be listed, and those without
 // pixels.
 HWY_INLINE unsigned ListableTriangles(const TileContext& t, int count) {
@@ -253,7 +273,7 @@ HWY_INLINE unsigned ListableTriangles(const TileContext& t, int count) {
   if (!t.program->packs || t.notes != nullptr || t.block.meter != nullptr) return 0;
   const WindowSizes sizes(s);
   const unsigned all = (1u << count) - 1, empty = sizes.Empty() & all,
-                 small = sizes.Below(kWindow) & all & ~empty;
+                 small = sizes.Below(kWindow) & ShortSides(s) & all & ~empty;
   if (small == 0) return empty;
   uint64_t variants;
   memcpy(&variants, s.variant, sizeof variants);
@@ -272,16 +292,20 @@ HWY_INLINE void ListTriangles(TileContext& t, unsigned which) {
   if (lanes == 0) return;
   ListedPixels& list = t.listed;
   list.variant = s.variant[__builtin_ctz(lanes)];
-  ListedWindows windows;
-  if ((lanes & ~unsigned{sizes.Below(4)}) == 0) {
-    windows.Make<4>(s, sizes.width, sizes.height, lanes);
+  const ListedWindows windows(s, sizes.width, sizes.height, lanes);
+  int count = list.count;  // in a register: stores of codes might be to the list's
+  if (windows.above_16 == 0) {
     for (unsigned todo = lanes; todo != 0; todo &= todo - 1)
-      ListLane<4>(s, windows, __builtin_ctz(todo), list);
+      count = WindowLister(windows, __builtin_ctz(todo)).List<0>(list.codes, count);
   } else {
-    windows.Make<8>(s, sizes.width, sizes.height, lanes);
-    for (unsigned todo = lanes; todo != 0; todo &= todo - 1)
-      ListLane<8>(s, windows, __builtin_ctz(todo), list);
+    for (unsigned todo = lanes; todo != 0; todo &= todo - 1) {
+      const int lane = __builtin_ctz(todo);
+      const WindowLister lister(windows, lane);
+      count = lister.List<1>(list.codes, lister.List<0>(list.codes, count));
+      if ((windows.above_32 >> lane & 1) != 0) count = lister.List<3>(list.codes, lister.List<2>(list.codes, count));
+    }
   }
+  list.count = count;
   list.blocks = windows.blocks;
   if (list.count != 0) PackAllListed(t);
 }

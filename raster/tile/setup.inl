@@ -73,6 +73,7 @@ HWY_INLINE void SetCoverage(const CornerVectors& v, int i, bool plain, int32_t c
   SetBox(y, center_y, limit.y0, limit.y1, out.min_y + i, out.max_y + i);
   // No larger than a tile, they are nowhere further from its first pixel than two tiles: edge values stay below 2^31.
   const VDi size = hn::Max(x.Size(), y.Size());
+  hn::Store(size, di, out.size + i);
   if (plain && hn::AllTrue(di, hn::Lt(size, hn::Set(di, kTileSize * kSubpixelScale)))) {
     const VDi cx = hn::Set(di, center_x), cy = hn::Set(di, center_y);
     for (int k = 0; k < 3; ++k) SetEdge(v.place_x, v.place_y, k, (k + 1) % 3, i, cx, cy, out);

@@ -20,6 +20,7 @@ struct alignas(64) SetupBatch {
   alignas(64) int32_t edge[3][kSetupLanes], step_x[3][kSetupLanes], step_y[3][kSetupLanes];
   // Pixels to look at, relative to the tile, inclusive; max < min when there are none.
   alignas(64) int32_t min_x[kSetupLanes], min_y[kSetupLanes], max_x[kSetupLanes], max_y[kSetupLanes];
+  alignas(64) int32_t size[kSetupLanes];  // the larger side of a triangle's box, 16.8
   // Centre of the tile's lowest-left pixel minus the anchor vertex, in pixels: exact also as floats.
   alignas(64) double anchor_x[kSetupLanes], anchor_y[kSetupLanes];
   alignas(32) float anchor_x_f[kSetupLanes], anchor_y_f[kSetupLanes];
