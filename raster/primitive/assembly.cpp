@@ -170,7 +170,7 @@ class Assembler {
     if (area == 0 || box.empty()) return false;
     segment_.cut_triangles.push_back(cut);
     const auto index = uint32_t(segment_.cut_triangles.size() - 1);
-    const uint32_t primitive = append({{index, 0, 0}, PrimitiveKind::triangle, true, back, 0});
+    const uint32_t primitive = append({{index, 0, cut.source}, PrimitiveKind::triangle, true, back, 0});
     bin_triangle(segment_, tile_box(box), cut.x, cut.y, primitive);
     return true;
   }
@@ -203,7 +203,7 @@ class Assembler {
     const auto index = uint32_t(segment_.cut_triangles.size());
     segment_.plane_sources.push_back(planes);
     segment_.cut_triangles.push_back(cut);
-    bin_box(segment_, tile_box(box), append({{index, 0, 0}, PrimitiveKind::line, true, false, 0}));
+    bin_box(segment_, tile_box(box), append({{index, 0, cut.source}, PrimitiveKind::line, true, false, 0}));
   }
 
   bool is_point_seen(uint32_t v, int& px, int& py) const {

@@ -42,7 +42,7 @@ enum class PrimitiveKind : uint8_t { triangle, smooth_triangle, line, point, poi
 
 struct PrimitiveRef {
   // Vertices of the draw, in submission order; the edge of a polygon has the polygon's provoking vertex last. Cut:
-  // v[0] indexes cut_triangles, and of a stippled line v[1] is where its stipple starts.
+  // v[0] indexes cut_triangles, v[2] their plane_sources, and of a stippled line v[1] is where its stipple starts.
   uint32_t v[3];
   PrimitiveKind kind;
   bool cut;

@@ -129,7 +129,7 @@ class ShapeAssembler {
       const CutTriangle cut = polygon.triangle_at(i, source);
       if (triangle_area(cut.x, cut.y) == 0) continue;
       segment_.cut_triangles.push_back(cut);
-      bin_filled({{uint32_t(segment_.cut_triangles.size() - 1), 0, 0}, kind(), true, back, 0}, cut.x, cut.y);
+      bin_filled({{uint32_t(segment_.cut_triangles.size() - 1), 0, source}, kind(), true, back, 0}, cut.x, cut.y);
     }
   }
 
@@ -310,7 +310,7 @@ class ShapeAssembler {
     const auto index = uint32_t(segment_.cut_triangles.size());
     segment_.plane_sources.push_back(planes);
     segment_.cut_triangles.push_back(cut);
-    bin_box(segment_, tile_box(box), append({{index, stipple, 0}, kind, true, back, 0}));
+    bin_box(segment_, tile_box(box), append({{index, stipple, cut.source}, kind, true, back, 0}));
   }
 
   // Pixels a line can reach: those its box touches, half its width more, and one for the diamonds beside it.

@@ -321,12 +321,24 @@ HWY_INLINE void SpreadCorners(const Corners& from, const QuadPlan& quads, int at
   }
 }
 
-// Asks for the next batch's vertices while this one is drawn.
+// How far ahead of the vertices a primitive is asked for.
+inline constexpr size_t kRefsAhead = kSetupLanes;
+
+// Asks for what the next batch's primitives are made from while this one is drawn: from ids[at] on, of `total`.
 HWY_INLINE void PrefetchCorners(const Segment& segment, const ShadedVertices& vertices, size_t stride,
-                                const uint32_t* ids, size_t count) {
-  for (size_t lane = 0; lane < count; ++lane) {
-    const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    if (ref.cut) continue;
+                                const uint32_t* ids, size_t at, size_t total, size_t count) {
+  const PrimitiveRef* primitives = segment.primitives.data();
+  const size_t left = total - at;
+  if (left < count) count = left;
+  for (size_t i = at; i < at + count; ++i) {
+    if (i + kRefsAhead < total) __builtin_prefetch(primitives + ids[i + kRefsAhead]);
+    const PrimitiveRef& ref = primitives[ids[i]];
+    if (HWY_UNLIKELY(ref.cut)) {
+      const auto* planes = reinterpret_cast<const char*>(segment.plane_sources.data() + ref.v[2]);
+      __builtin_prefetch(segment.cut_triangles.data() + ref.v[0]);
+      for (int k = 0; k < 3; ++k) __builtin_prefetch(planes + k * 64);
+      continue;
+    }
     for (int k = 0; k < 3; ++k) __builtin_prefetch(vertices.records + ref.v[k] * stride);
   }
 }

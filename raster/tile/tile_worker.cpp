@@ -375,7 +375,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
     while (at < total && ids[at] < end) {
       if (t.packs_points && RunWaitingPoint(t, segment, record, ids[at])) {
         if (at + kPointsAhead < total)
-          PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + at + kPointsAhead, 1);
+          PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids, at + kPointsAhead, total, 1);
         ++at;
         continue;
       }
@@ -388,8 +388,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
       const int drawn = lines ? RunPlainLines(t, segment, record, ids + at, count) : 0;
       if (!lines) SetUp(segment, record, ids + at, count, t.x, t.y, t.limit, t.input, t.setup);
       const size_t next = at + static_cast<size_t>(count);
-      PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids + next,
-                      total - next < kSetupLanes ? total - next : kSetupLanes);
+      PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids, next, total, kSetupLanes);
       if (!lines && AreTriangles(segment, ids + at, count)) RunTriangles(t, count);
       else RunOneByOne(t, segment, record, ids + at, drawn, count);
       at = next;
