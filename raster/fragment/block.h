@@ -92,6 +92,13 @@ struct TileGroup {
   int lane() const { return place >> kLaneShift; }
 };
 
+// Products of the depth planes of a batch's primitives along the columns and the rows of a tile, where groups of theirs
+// lie. A window of columns or rows may begin with any in the tile and reach beyond.
+struct GroupDepths {
+  static constexpr int kColumns = 32, kRows = 16;  // of a window
+  alignas(64) double across[kSetupLanes][kTileSize + kColumns], row[kSetupLanes][kTileSize + kRows];
+};
+
 // Blocks side by side that a list of kernels takes in turn, each kernel all of them: what it works out ahead serves all.
 inline constexpr int kRowBlocks = kTileSize / kBlockSize;
 // A line of the cache more than a row has: or else slots would share the same few sets.
@@ -135,6 +142,7 @@ struct alignas(64) BlockContext {
   TileGroup* groups;        // what primitives cover of a tile; then colour and depth are the tile's
   int group_count;
   unsigned group_lanes;     // bits of the lanes that the groups' primitives have in the batch
+  const GroupDepths* group_depths;  // where groups may be of several primitives
   StageMeter* meter = nullptr;  // null: nothing is counted
 };
 

@@ -41,11 +41,13 @@ struct GroupPlane {
   }
 };
 
+// Depth comes from products that the walk has left (FillGroupDepths in raster/tile/group_walk.inl).
 struct GroupPlaneDouble {
   const BlockContext& c;
   int plane;
   HWY_INLINE GroupPlaneDouble(const BlockContext& context, int which) : c(context), plane(which) {}
   HWY_INLINE VD At(int i) const {
+    if (plane == 0) return Depth(i);
     const SetupBatch& s = *c.setup;
     const int lane = c.lane;
     const __m512d dx =
@@ -57,6 +59,15 @@ struct GroupPlaneDouble {
     VD v;
     v.part[0] = hn::Vec<DD>{_mm512_add_pd(_mm512_broadcastsd_pd(rows), across)};
     v.part[1] = hn::Vec<DD>{_mm512_add_pd(_mm512_broadcastsd_pd(_mm_unpackhi_pd(rows, rows)), across)};
+    return v;
+  }
+
+ private:
+  HWY_INLINE VD Depth(int i) const {
+    const __m512d across = _mm512_load_pd(c.group_depths->across[c.lane] + ColumnInTile(i));
+    const double* row = c.group_depths->row[c.lane] + RowInTile(i);
+    VD v;
+    for (int p = 0; p < 2; ++p) v.part[p] = hn::Vec<DD>{_mm512_add_pd(_mm512_set1_pd(row[p]), across)};
     return v;
   }
 };

@@ -4,7 +4,7 @@
 // once, in float. For AVX-512 only, where a list may hold groups of several primitives; others walk each
 // triangle alone.
 
-inline constexpr int kSpanWidth = 32, kSpanRows = 16;
+inline constexpr int kSpanWidth = GroupDepths::kColumns, kSpanRows = GroupDepths::kRows;
 
 #if HWY_TARGET == HWY_AVX3
 // Edges shorter than this along either axis: then whatever decides about a pixel of the window is below 2^21,
@@ -157,9 +157,14 @@ class GroupBatch {
     stages_ = &stages;
     lanes_ |= 1u << lane;
     blocks_ |= spans_.blocks[lane];
-    for (int y = 0; y <= spans_.height[lane]; y += kSpanRows)
-      for (int x = 0; x <= spans_.width[lane]; x += kSpanWidth)
+    const int left = t_.setup.min_x[lane] & ~(kBlockSize - 1), bottom = t_.setup.min_y[lane] & ~1;
+    for (int y = 0; y <= spans_.height[lane]; y += kSpanRows) {
+      for (int x = 0; x <= spans_.width[lane]; x += kSpanWidth) {
         length_ = _mm512_add_epi32(length_, AddWindow(spans_, lane, x, y, list_));
+        if (stages.groups_depth != nullptr)
+          FillGroupDepths(t_.setup, lane, left + x, bottom + y, t_.group_depths);
+      }
+    }
     return true;
   }
 

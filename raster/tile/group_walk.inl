@@ -142,6 +142,22 @@ struct GroupList {
 #endif
 };
 
+#if HWY_TARGET == HWY_AVX3
+// Of the window that begins at (x, y) of the tile, x at a block: what groups of the primitive take their depth from.
+HWY_INLINE void FillGroupDepths(const SetupBatch& s, int lane, int x, int y, GroupDepths& out) {
+  const __m512d steps = _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7);
+  for (int k = 0; k < GroupDepths::kColumns; k += 8) {
+    const __m512d dx = _mm512_add_pd(steps, _mm512_set1_pd(s.anchor_x[lane] + (x + k)));
+    _mm512_store_pd(out.across[lane] + x + k, _mm512_mul_pd(dx, _mm512_set1_pd(s.dfdx[0][lane])));
+  }
+  for (int k = 0; k < GroupDepths::kRows; k += 8) {
+    const __m512d dy = _mm512_add_pd(steps, _mm512_set1_pd(s.anchor_y[lane] + (y + k)));
+    const __m512d up = _mm512_mul_pd(dy, _mm512_set1_pd(s.dfdy[0][lane]));
+    _mm512_storeu_pd(out.row[lane] + y + k, _mm512_add_pd(up, _mm512_set1_pd(s.f0[0][lane])));
+  }
+}
+#endif
+
 // Runs the program on a list in these blocks, of primitives that `lanes` are the bits of and that take the same path.
 HWY_INLINE void RunGroups(TileContext& t, unsigned lanes, const GroupList& list, uint64_t blocks,
                           const BlockProgram& stages) {
@@ -289,6 +305,10 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
     covered = 0;
   }
   if (touched == 0) return;
+#if HWY_TARGET == HWY_AVX3
+  for (int at = 0; at < kTileSize; at += GroupDepths::kRows)
+    FillGroupDepths(s, lane, at / GroupDepths::kColumns * GroupDepths::kColumns, at, t.group_depths);
+#endif
   GroupList list(t.groups, lane);
   if (!t.masks_blocks) {
     masks.AddTo(list, touched);
