@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstring>
+#include <type_traits>
 
 #include "raster/fragment/program.h"
 #include "raster/primitive/clip.h"
@@ -58,23 +59,29 @@ class Assembler {
     const bool cull_cw = front_is_ccw_ ? raster.cull_back : raster.cull_front;
     culled_from_ = cull_cw ? INT64_MIN : 0;
     culled_to_ = cull_ccw ? INT64_MAX : 0;
-    filter_ = {records_, stride_, draw.vertices.all_inside ? nullptr : outcodes_, bounds_, cull_cw, cull_ccw};
+    filter_ = {records_, stride_, draw.vertices.all_inside ? nullptr : outcodes_, bounds_, cull_cw, cull_ccw,
+               segment.tiles_x};
   }
 
   template <class Pattern>
   void faces(uint32_t first, uint32_t count) {
     segment_.triangles_in += count;
     const TriangleFilterFunction run_filter = triangle_filter();
-    uint32_t corners[3 * kFilterLanes];
+    uint32_t made[3 * kFilterLanes];
     FilteredTriangles found{};
     while (count > 0) {
       const uint32_t group = std::min(count, kFilterLanes);
-      for (uint32_t i = 0; i < group; ++i) {
-        const Corners at = Pattern::at(first + i);
-        for (uint32_t k = 0; k < 3; ++k) corners[3 * i + k] = vertex(at.v[k]);
+      const uint32_t* corners = made;
+      if (std::is_same_v<Pattern, ListTriangles> && indices_ != nullptr) {
+        corners = indices_ + 3 * first;
+      } else {
+        for (uint32_t i = 0; i < group; ++i) {
+          const Corners at = Pattern::at(first + i);
+          for (uint32_t k = 0; k < 3; ++k) made[3 * i + k] = vertex(at.v[k]);
+        }
       }
       run_filter(filter_, corners, group, found);
-      take_filtered(found, corners, group, Pattern::kProvoking);
+      take_filtered(found, corners, Pattern::kProvoking);
       first += group;
       count -= group;
     }
@@ -114,9 +121,9 @@ class Assembler {
   bool is_back(int64_t area) const { return (area > 0) != front_is_ccw_; }
   bool is_culled(int64_t area) const { return area >= culled_from_ && area <= culled_to_; }
 
-  void take_filtered(const FilteredTriangles& found, const uint32_t* corners, uint32_t count, uint8_t provoking) {
+  void take_filtered(const FilteredTriangles& found, const uint32_t* corners, uint8_t provoking) {
     const uint32_t taken = found.kept | found.special;
-    segment_.culled += count - uint32_t(std::popcount(taken));
+    segment_.culled += found.dropped;
     for (uint32_t todo = taken; todo != 0; todo &= todo - 1) {
       const auto lane = uint32_t(std::countr_zero(todo));
       const uint32_t* v = corners + 3 * lane;
@@ -131,10 +138,8 @@ class Assembler {
   void bin_filtered(const FilteredTriangles& found, uint32_t lane, const uint32_t* v, uint8_t provoking) {
     const bool back = (found.clockwise >> lane & 1) == front_is_ccw_;
     const uint32_t primitive = append({{v[0], v[1], v[2]}, PrimitiveKind::triangle, false, back, provoking});
-    const TileBox tiles = tile_box(
-        {found.first_x[lane], found.first_y[lane], found.last_x[lane] + 1, found.last_y[lane] + 1});
-    if (tiles.x0 == tiles.x1 && tiles.y0 == tiles.y1)
-      return push_to_bin(segment_, tiles.x0, tiles.y0, primitive);
+    if (found.in_one_tile >> lane & 1) return push_to_bin(segment_, size_t(found.tile[lane]), primitive);
+    const TileBox tiles{found.tile_x0[lane], found.tile_y0[lane], found.tile_x1[lane], found.tile_y1[lane]};
     const int32_t x[3] = {found.x[0][lane], found.x[1][lane], found.x[2][lane]};
     const int32_t y[3] = {found.y[0][lane], found.y[1][lane], found.y[2][lane]};
     bin_triangle(segment_, tiles, x, y, primitive);

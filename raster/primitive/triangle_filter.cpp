@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "raster/isa.h"
+#include "raster/primitive/segment.h"
 #include "raster/vertex/shaded_vertices.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -131,6 +132,19 @@ HWY_INLINE IntMask covers_center(const Corners& c, const Box& box, IntVec turn, 
   return hn::Gt(inside, none);
 }
 
+// Boxes of pixels as boxes of tiles.
+HWY_INLINE void store_tiles(const Box& box, int tiles_x, uint32_t i, FilteredTriangles& out) {
+  static_assert(kTileSize == 1 << 6);
+  const Ints d;
+  const IntVec x0 = hn::ShiftRight<6>(box.first_x), x1 = hn::ShiftRight<6>(box.last_x);
+  const IntVec y0 = hn::ShiftRight<6>(box.first_y), y1 = hn::ShiftRight<6>(box.last_y);
+  hn::StoreU(x0, d, out.tile_x0 + i), hn::StoreU(x1, d, out.tile_x1 + i);
+  hn::StoreU(y0, d, out.tile_y0 + i), hn::StoreU(y1, d, out.tile_y1 + i);
+  hn::StoreU(hn::Add(hn::Mul(y0, hn::Set(d, tiles_x)), x0), d, out.tile + i);
+  const IntMask one = hn::And(hn::Eq(x0, x1), hn::Eq(y0, y1));
+  out.in_one_tile |= mask_bits(one) << i;
+}
+
 // The lanes from `i` on whose boxes hold pixels, and not only some that the triangle misses.
 HWY_INLINE unsigned filter_lanes(const TriangleFilter& filter, uint32_t i, unsigned clockwise,
                                  FilteredTriangles& out) {
@@ -145,8 +159,7 @@ HWY_INLINE unsigned filter_lanes(const TriangleFilter& filter, uint32_t i, unsig
                 hn::Max(first_pixel(low_y), hn::Set(d, filter.bounds.y0)),
                 hn::Min(last_pixel(high_x), hn::Set(d, filter.bounds.x1 - 1)),
                 hn::Min(last_pixel(high_y), hn::Set(d, filter.bounds.y1 - 1))};
-  hn::StoreU(box.first_x, d, out.first_x + i), hn::StoreU(box.first_y, d, out.first_y + i);
-  hn::StoreU(box.last_x, d, out.last_x + i), hn::StoreU(box.last_y, d, out.last_y + i);
+  store_tiles(box, filter.tiles_x, i, out);
   const IntVec one = hn::Set(d, 1);
   const IntVec width = hn::Add(hn::Sub(box.last_x, box.first_x), one);
   const IntVec height = hn::Add(hn::Sub(box.last_y, box.first_y), one);
@@ -162,9 +175,27 @@ HWY_INLINE unsigned filter_lanes(const TriangleFilter& filter, uint32_t i, unsig
   return filled & (~small | mask_bits(covers_center(c, box, hn::LoadU(d, turns + i), width, height)));
 }
 
-void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint32_t count,
-                     FilteredTriangles& out) {
-  unsigned special = 0, outside = 0;
+// Where the corners of all lanes lie; lanes beyond `count` get some corner or other.
+HWY_INLINE void load_places(const TriangleFilter& filter, const uint32_t* corners, uint32_t count,
+                            FilteredTriangles& out) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  // In registers: what is stored narrow and read wide stalls.
+  if (HWY_LIKELY(count == kFilterLanes)) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const auto two = [&](uint32_t a, uint32_t b) HWY_ATTR {
+        const auto at = [&](uint32_t lane) HWY_ATTR {
+          return reinterpret_cast<const __m64*>(filter.records + corners[3 * lane + k] * filter.stride);
+        };
+        return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at(a)))), at(b));
+      };
+      const __m256 even = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
+      const __m256 odd = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
+      _mm256_storeu_ps(reinterpret_cast<float*>(out.x[k]), _mm256_shuffle_ps(even, odd, 0x88));
+      _mm256_storeu_ps(reinterpret_cast<float*>(out.y[k]), _mm256_shuffle_ps(even, odd, 0xdd));
+    }
+    return;
+  }
+#endif
   for (uint32_t lane = 0; lane < count; ++lane) {
     for (int k = 0; k < 3; ++k) {
       const auto* place =
@@ -173,6 +204,12 @@ void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint
       out.y[k][lane] = place->y;
     }
   }
+}
+
+void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint32_t count,
+                     FilteredTriangles& out) {
+  unsigned special = 0, outside = 0;
+  load_places(filter, corners, count, out);
   if (filter.outcodes != nullptr) {
     for (uint32_t lane = 0; lane < count; ++lane) {
       const unsigned o0 = filter.outcodes[corners[3 * lane]], o1 = filter.outcodes[corners[3 * lane + 1]],
@@ -184,6 +221,7 @@ void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint
     }
   }
   unsigned positive = 0, negative = 0, filled = 0;
+  out.in_one_tile = 0;
   for (uint32_t i = 0; i < kFilterLanes; i += kIntLanes) {
     const Areas areas = area_signs(out.x, out.y, i);
     positive |= areas.positive << i, negative |= areas.negative << i;
@@ -195,6 +233,7 @@ void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint
   const unsigned lanes = (1u << count) - 1;
   out.kept = kept & ~outside & ~special & lanes;
   out.special = special;
+  out.dropped = count - static_cast<uint32_t>(__builtin_popcount(out.kept | special));
   out.clockwise = negative;
 }
 

@@ -17,6 +17,7 @@ struct TriangleFilter {
   const uint16_t* outcodes;  // null: all vertices are inside
   Rect bounds;               // the draw's
   bool cull_clockwise, cull_counter_clockwise;
+  int tiles_x;  // of a row
 };
 
 // One bit a lane, and what is known of the lanes of `kept`.
@@ -24,9 +25,12 @@ struct FilteredTriangles {
   uint32_t kept;     // may cover a pixel centre within the bounds
   uint32_t special;  // a corner lies outside of something: nothing was decided
   uint32_t clockwise;
+  uint32_t dropped;      // how many are neither kept nor special
+  uint32_t in_one_tile;  // have all pixels to look at in one tile:
+  int32_t tile[kFilterLanes];
+  int32_t tile_x0[kFilterLanes], tile_y0[kFilterLanes];  // tiles to look at,
+  int32_t tile_x1[kFilterLanes], tile_y1[kFilterLanes];  // inclusive
   int32_t x[3][kFilterLanes], y[3][kFilterLanes];        // corners, 16.8
-  int32_t first_x[kFilterLanes], first_y[kFilterLanes];  // pixels to look at,
-  int32_t last_x[kFilterLanes], last_y[kFilterLanes];    // inclusive
 };
 
 // corners: three vertices for each of `count` <= kFilterLanes triangles. Drops the culled, those without

@@ -17,11 +17,14 @@ inline Rect pixel_box(int32_t x0, int32_t y0, int32_t x1, int32_t y1, const Rect
   return intersect({first_pixel(x0), first_pixel(y0), last_pixel(x1) + 1, last_pixel(y1) + 1}, bounds);
 }
 
-inline void push_to_bin(Segment& segment, int tile_x, int tile_y, uint32_t primitive) {
-  const size_t tile = size_t(tile_y) * size_t(segment.tiles_x) + size_t(tile_x);
+inline void push_to_bin(Segment& segment, size_t tile, uint32_t primitive) {
   std::vector<uint32_t>& bin = segment.bins[tile];
   if (bin.empty()) segment.touched.push_back(uint32_t(tile));
   bin.push_back(primitive);
+}
+
+inline void push_to_bin(Segment& segment, int tile_x, int tile_y, uint32_t primitive) {
+  push_to_bin(segment, size_t(tile_y) * size_t(segment.tiles_x) + size_t(tile_x), primitive);
 }
 
 // Tiles of a pixel box: inclusive.

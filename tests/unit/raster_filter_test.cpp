@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <random>
 #include <sstream>
 
 #include "raster/api/device.h"
+#include "raster/primitive/segment.h"
 #include "raster/primitive/triangle_filter.h"
 #include "tests/unit/raster_front.h"
 
@@ -13,6 +15,8 @@ namespace halfspace::raster::test {
 namespace {
 
 constexpr Rect kBounds{3, 2, 13, 14};  // within the 16 x 16 pixels the triangles lie in
+// Where those begin: four tiles meet among them.
+constexpr int kLeft = 2 * kTileSize - 7, kBottom = kTileSize - 9, kTilesX = 5;
 
 struct Corner {
   int32_t x, y;
@@ -49,21 +53,38 @@ Triangle random_triangle(std::mt19937& random) {
   return t;
 }
 
+// Every pixel the triangle covers lies in a tile that is to be looked at.
+void expect_tiles(const Triangle& t, const FilteredTriangles& found, uint32_t i) {
+  const int32_t x[3] = {t[0].x, t[1].x, t[2].x}, y[3] = {t[0].y, t[1].y, t[2].y};
+  const int x0 = found.tile_x0[i], x1 = found.tile_x1[i], y0 = found.tile_y0[i], y1 = found.tile_y1[i];
+  for (int py = kBounds.y0; py < kBounds.y1; ++py) {
+    for (int px = kBounds.x0; px < kBounds.x1; ++px) {
+      if (!covers(x, y, px, py)) continue;
+      const int tx = (px + kLeft) / kTileSize, ty = (py + kBottom) / kTileSize;
+      ASSERT_TRUE(tx >= x0 && tx <= x1 && ty >= y0 && ty <= y1);
+    }
+  }
+  ASSERT_EQ(found.in_one_tile >> i & 1, x0 == x1 && y0 == y1 ? 1u : 0u);
+  ASSERT_EQ(found.tile[i], y0 * kTilesX + x0);
+}
+
 class Filter {
  public:
   Filter(bool cull_clockwise, bool cull_counter_clockwise)
       : filter_{reinterpret_cast<const std::byte*>(corners_.data()),
                 sizeof(Corner),
                 nullptr,
-                kBounds,
+                {kLeft + kBounds.x0, kBottom + kBounds.y0, kLeft + kBounds.x1, kBottom + kBounds.y1},
                 cull_clockwise,
-                cull_counter_clockwise} {}
+                cull_counter_clockwise,
+                kTilesX} {}
 
   FilteredTriangles run(const std::array<Triangle, kFilterLanes>& triangles, uint32_t count) {
     std::array<uint32_t, 3 * kFilterLanes> order;
     for (uint32_t i = 0; i < order.size(); ++i) {
       order[i] = uint32_t(order.size()) - 1 - i;
-      corners_[order[i]] = triangles[i / 3][i % 3];
+      const Corner& c = triangles[i / 3][i % 3];
+      corners_[order[i]] = {c.x + kLeft * kSubpixelScale, c.y + kBottom * kSubpixelScale};
     }
     FilteredTriangles found{};
     triangle_filter()(filter_, order.data(), count, found);
@@ -87,6 +108,7 @@ TEST(TriangleFilter, KeepsWhatCoversAPixel) {
       for (Triangle& t : triangles) t = random_triangle(random);
       const FilteredTriangles found = Filter(cull_clockwise, cull_counter_clockwise).run(triangles, count);
       ASSERT_EQ(found.kept >> count, 0u);
+      ASSERT_EQ(found.dropped, count - uint32_t(std::popcount(found.kept)));
       for (uint32_t i = 0; i < count; ++i) {
         const Triangle& t = triangles[i];
         const int64_t area = area_of(t);
@@ -100,7 +122,9 @@ TEST(TriangleFilter, KeepsWhatCoversAPixel) {
         if (!culled && covers_a_pixel(t)) {
           ASSERT_TRUE(kept) << level;
           ASSERT_EQ(found.clockwise >> i & 1, area < 0 ? 1u : 0u);
-          for (int k = 0; k < 3; ++k) ASSERT_EQ(found.x[k][i], t[size_t(k)].x);
+          for (int k = 0; k < 3; ++k) ASSERT_EQ(found.x[k][i], t[size_t(k)].x + kLeft * kSubpixelScale);
+          for (int k = 0; k < 3; ++k) ASSERT_EQ(found.y[k][i], t[size_t(k)].y + kBottom * kSubpixelScale);
+          expect_tiles(t, found, i);
         } else if (culled || std::max(high_x - low_x, high_y - low_y) < 3 * kSubpixelScale) {
           ASSERT_FALSE(kept) << level;
         }
