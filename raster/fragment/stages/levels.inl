@@ -32,58 +32,70 @@ template <bool kBytes>
 struct SampleLevels {
   static constexpr bool kKills = false, kPacks = false, kInTiles = true, kOncePerBlock = true;
 
-  // Where the lookups of a block read that all fall on one level, or between the same two, and are linear: most blocks
-  // are such. Found ahead of all loads, so that lookups overlap.
+  // Where the lookups of groups read that fall on one level, or between the same two, and are linear: most
+  // groups are such. Found ahead of all loads, so that lookups overlap.
   template <class L>
   struct Once {
-    bool uniform = true, blends = false;
-    int level = 0;
+    static constexpr int kGroups = kBlockPixels / kLanes;
+    struct Group {
+      const LevelRef* level;  // null: several, or none
+      bool blends;
+    };
+    Group groups[kGroups];
     alignas(64) int32_t offset[2][kBlockPixels];
     alignas(64) float wu[2][kBlockPixels], wv[2][kBlockPixels];
 
     HWY_INLINE explicit Once(const BlockContext& c) {
-      const DF d;
-      if (c.live == 0) return;
-      const float key = Keys(c)[__builtin_ctzll(c.live)];
-      const VF none = hn::Zero(d);
-      VF different = none, blend = none;
-      for (int i = 0; i < kBlockPixels; i += kLanes) {
-        const MF live = MaskFromBits(c.live >> i & kGroupBits);
-        const VF off = hn::Abs(hn::Sub(hn::Load(d, Keys(c) + i), hn::Set(d, key)));
-        different = hn::Max(different, hn::IfThenElseZero(live, off));
-        blend = hn::Max(blend, hn::IfThenElseZero(live, hn::Load(d, c.slot[kMipBlend] + c.first_slot + i)));
-      }
-      uniform = hn::AllTrue(d, hn::Eq(different, none)) && IsLinear(*c.params, static_cast<int>(key));
-      if (!uniform) return;
-      level = LevelOf(static_cast<int>(key));
-      blends = !hn::AllTrue(d, hn::Eq(blend, none));
-      FindPlaces(c, 0);
-      if (blends) FindPlaces(c, 1);
+      const Sampler& sampler = c.params->sampler;
+      if (!kBytes && sampler.wrap_s == Wrap::repeat && sampler.wrap_t == Wrap::repeat)
+        FindGroups<true>(c);
+      else
+        FindGroups<false>(c);
     }
 
    private:
-    static HWY_INLINE const float* Keys(const BlockContext& c) { return c.slot[kMipKey] + c.first_slot; }
-    HWY_INLINE void FindPlaces(const BlockContext& c, int n) {
+    template <bool kRepeat>
+    HWY_INLINE void FindGroups(const BlockContext& c) {
       const DF d;
-      const Sampler& sampler = c.params->sampler;
-      for (int i = 0; i < kBlockPixels; i += kLanes) {
-        const Place place = PlaceOn(c.params->levels[level + n], sampler,
-                                    hn::Load(d, c.slot[kS] + c.first_slot + i),
-                                    hn::Load(d, c.slot[kT] + c.first_slot + i));
-        hn::Store(place.offset, DI(), offset[n] + i);
-        hn::Store(place.wu, d, wu[n] + i);
-        hn::Store(place.wv, d, wv[n] + i);
+      const FragmentParams& p = *c.params;
+      const float* const keys = c.slot[kMipKey] + c.first_slot;
+      for (int g = 0; g < kGroups; ++g) {
+        const int i = g * kLanes;
+        const uint64_t live = c.live >> i & kGroupBits;
+        groups[g] = {nullptr, false};
+        if (live == 0) continue;
+        const float key = keys[i + __builtin_ctzll(live)];
+        const uint64_t same = MaskBits(hn::Eq(hn::Load(d, keys + i), hn::Set(d, key)));
+        if ((live & ~same) != 0 || !IsLinear(p, static_cast<int>(key))) continue;
+        const VF blend = hn::Load(d, c.slot[kMipBlend] + c.first_slot + i);
+        const uint64_t blended = MaskBits(hn::Ne(blend, hn::Zero(d)));
+        groups[g] = {&p.levels[LevelOf(static_cast<int>(key))], (live & blended) != 0};
+        VF s = hn::Load(d, c.slot[kS] + c.first_slot + i), t = hn::Load(d, c.slot[kT] + c.first_slot + i);
+        if constexpr (kRepeat) s = InOneTurn(s), t = InOneTurn(t);
+        for (int n = 0; n <= (groups[g].blends ? 1 : 0); ++n) {
+          const LevelRef& level = groups[g].level[n];
+          Place place;
+          if constexpr (kRepeat)
+            place = RepeatedLevel(level).Find(s, t);
+          else
+            place = PlaceOn(level, p.sampler, s, t);
+          hn::Store(place.offset, DI(), offset[n] + i);
+          hn::Store(place.wu, d, wu[n] + i);
+          hn::Store(place.wv, d, wv[n] + i);
+        }
       }
     }
   };
 
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>& once, int i, Lanes& v) {
-    if (!once.uniform) return LookEach(*c.params, v);
-    LookPlaced(*c.params, once, 0, i % kBlockPixels, v);
-    if (!once.blends) return;
+    const int first = i % kBlockPixels;
+    const auto& group = once.groups[first / kLanes];
+    if (group.level == nullptr) return LookEach(*c.params, v);
+    LookPlaced(group.level[0], once, 0, first, v);
+    if (!group.blends) return;
     Lanes next = v;
-    LookPlaced(*c.params, once, 1, i % kBlockPixels, next);
+    LookPlaced(group.level[1], once, 1, first, next);
     Blend(next, v);
   }
 
@@ -102,10 +114,9 @@ struct SampleLevels {
   }
 
   template <class Places>
-  static HWY_INLINE void LookPlaced(const FragmentParams& p, const Places& places, int n, int i, Lanes& v) {
+  static HWY_INLINE void LookPlaced(const LevelRef& level, const Places& places, int n, int i, Lanes& v) {
     const DF d;
-    LookPlace(p.levels[places.level + n], LaneOffsets(places.offset[n] + i), hn::Load(d, places.wu[n] + i),
-               hn::Load(d, places.wv[n] + i), v);
+    LookPlace(level, LaneOffsets(places.offset[n] + i), hn::Load(d, places.wu[n] + i), hn::Load(d, places.wv[n] + i), v);
   }
 
   static HWY_INLINE void Blend(const Lanes& next, Lanes& v) {

@@ -309,6 +309,28 @@ HWY_INLINE Place FindPlace(const LevelRef& level, Wrap wrap_s, Wrap wrap_t, VF s
   const VI y = TexelIndex(v0, hn::Set(di, level.height_i), -1);
   return {TexelOffset(level, x, y), hn::Sub(u, u0), hn::Sub(v, v0)};
 }
+// A coordinate under REPEAT: in [0, 1] for whatever number; what is none becomes 0 (the first operand's, in Max), since
+// dead lanes are looked up.
+HWY_INLINE VF InOneTurn(VF v) { return hn::Max(hn::Sub(v, hn::Floor(v)), hn::Zero(DF())); }
+
+// The same for REPEAT both ways, and coordinates in one turn: in the level without being held there.
+struct RepeatedLevel {
+  VF width, height;
+  VI pitch, first;
+  HWY_INLINE explicit RepeatedLevel(const LevelRef& level)
+      : width(hn::Set(DF(), level.width)),
+        height(hn::Set(DF(), level.height)),
+        pitch(hn::Set(DI(), level.pitch)),
+        first(hn::Set(DI(), level.pitch + 1)) {}
+  HWY_INLINE Place Find(VF s, VF t) const {
+    const VF half = hn::Set(DF(), 0.5f);
+    const VF x = hn::Sub(hn::Mul(s, width), half), y = hn::Sub(hn::Mul(t, height), half);
+    const VF x0 = hn::Floor(x), y0 = hn::Floor(y);
+    const VI row = hn::Mul(TruncateInRange(y0), pitch);
+    return {hn::Add(row, hn::Add(TruncateInRange(x0), first)), hn::Sub(x, x0), hn::Sub(y, y0)};
+  }
+};
+
 HWY_INLINE void LookLinear(const LevelRef& level, const LaneOffsets& offsets, VF wu, VF wv, Lanes& v) {
   Bilinear(offsets, level.texels, level.texels + level.pitch, wu, wv, level.opaque, v);
 }
@@ -329,34 +351,20 @@ struct Footprint {
   }
 };
 
-// A coordinate under REPEAT: in [0, 1] for whatever number; what is none becomes 0 (the first operand's, in Max), since
-// dead lanes are looked up.
-HWY_INLINE VF InOneTurn(VF v) { return hn::Max(hn::Sub(v, hn::Floor(v)), hn::Zero(DF())); }
-
 // The same for REPEAT both ways.
 struct FootprintRepeat {
   static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   struct Once {
-    VF width, height;
-    VI pitch, first;
-    HWY_INLINE explicit Once(const BlockContext& c) {
-      const LevelRef& level = c.params->levels[0];
-      width = hn::Set(DF(), level.width);
-      height = hn::Set(DF(), level.height);
-      pitch = hn::Set(DI(), level.pitch);
-      first = hn::Set(DI(), level.pitch + 1);
-    }
+    RepeatedLevel level;
+    HWY_INLINE explicit Once(const BlockContext& c) : level(c.params->levels[0]) {}
   };
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int, Lanes& v) {
-    const VF s = InOneTurn(v.slot[kS]), t = InOneTurn(v.slot[kT]), half = hn::Set(DF(), 0.5f);
-    const VF x = hn::Sub(hn::Mul(s, once.width), half), y = hn::Sub(hn::Mul(t, once.height), half);
-    const VF x0 = hn::Floor(x), y0 = hn::Floor(y);
-    v.slot[kS] = hn::Sub(x, x0);
-    v.slot[kT] = hn::Sub(y, y0);
-    const VI row = hn::Mul(TruncateInRange(y0), once.pitch);
-    v.slot[kOffset] = hn::BitCast(DF(), hn::Add(row, hn::Add(TruncateInRange(x0), once.first)));
+    const Place place = once.level.Find(InOneTurn(v.slot[kS]), InOneTurn(v.slot[kT]));
+    v.slot[kS] = place.wu;
+    v.slot[kT] = place.wv;
+    v.slot[kOffset] = hn::BitCast(DF(), place.offset);
   }
 };
 
