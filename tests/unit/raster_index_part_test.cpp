@@ -21,7 +21,9 @@ std::vector<std::string> levels() {
 
 class IndexPart : public testing::TestWithParam<std::string> {
  protected:
-  void SetUp() override { ASSERT_TRUE(isa_select(GetParam())); }
+  void SetUp() override { ASSERT_TRUE(set_isa(GetParam())); }
+  void TearDown() override { set_isa(before_); }
+  const std::string before_{isa_name()};
 };
 
 std::vector<uint32_t> some_indices(size_t count, std::mt19937& random) {
@@ -55,7 +57,7 @@ TEST_P(IndexPart, RebaseWritesAsManyAsThereAre) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, IndexPart, testing::ValuesIn(levels()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Isa, IndexPart, testing::ValuesIn(levels()), [](const auto& level) { return level.param; });
 
 }  // namespace
 }  // namespace halfspace::raster::test
