@@ -106,14 +106,12 @@ class BlockDepths {
   HWY_INLINE CoarseDepth Compare(const TileState& state, bool or_equal) const {
     const DD d;
     CoarseDepth coarse;
-    const VD scale = hn::Set(d, kDepthScale), one = hn::Set(d, 1.0), slack = hn::Set(d, or_equal ? 1.0 : 0.0);
+    const VD one = hn::Set(d, 1.0), slack = hn::Set(d, or_equal ? 1.0 : 0.0);
     for (int row = first_; row <= last_; ++row) {
       for (int i = 0; i < 8; i += kDoubleLanes) {
         const int block = row * 8 + i;
-        const VD deepest = hn::PromoteTo(d, Load(state.depth_max + block));
         const VD nearest = hn::PromoteTo(d, Load(state.depth_min + block));
-        const VD least = hn::Sub(hn::Min(Least(row, i), scale), one);
-        coarse.hidden |= BitsOfMask(d, hn::Gt(least, hn::Add(deepest, one))) << block;
+        coarse.hidden |= HiddenBlocks(row, i, state);
         // A fragment before the near plane is held to 0, so it lies before a depth of at least 1 only.
         const VD before = hn::IfThenElse(hn::Ge(nearest, one), hn::Add(nearest, slack), hn::Set(d, -1e300));
         coarse.nearer |= BitsOfMask(d, hn::Lt(Greatest(row, i), before)) << block;
@@ -125,17 +123,9 @@ class BlockDepths {
 
   // What Compare finds hidden, and nothing else.
   HWY_INLINE uint64_t Hidden(const TileState& state) const {
-    const DD d;
-    const VD scale = hn::Set(d, kDepthScale), one = hn::Set(d, 1.0);
     uint64_t hidden = 0;
-    for (int row = first_; row <= last_; ++row) {
-      for (int i = 0; i < 8; i += kDoubleLanes) {
-        const int block = row * 8 + i;
-        const VD deepest = hn::PromoteTo(d, Load(state.depth_max + block));
-        const VD least = hn::Sub(hn::Min(Least(row, i), scale), one);
-        hidden |= BitsOfMask(d, hn::Gt(least, hn::Add(deepest, one))) << block;
-      }
-    }
+    for (int row = first_; row <= last_; ++row)
+      for (int i = 0; i < 8; i += kDoubleLanes) hidden |= HiddenBlocks(row, i, state);
     return hidden;
   }
 
@@ -162,6 +152,16 @@ class BlockDepths {
   }
 
  private:
+  // Of the blocks from the `i`-th of a row on, as many as a vector holds: those that IsBehind is true of.
+  HWY_INLINE uint64_t HiddenBlocks(int row, int i, const TileState& state) const {
+    const DD d;
+    const int block = row * 8 + i;
+    const VD scale = hn::Set(d, kDepthScale), one = hn::Set(d, 1.0);
+    const VD deepest = hn::PromoteTo(d, Load(state.depth_max + block));
+    const VD least = hn::Sub(hn::Min(Least(row, i), scale), one);
+    return BitsOfMask(d, hn::Gt(least, hn::Add(deepest, one))) << block;
+  }
+
   HWY_INLINE VD Least(int row, int i) const {
     const double y = dy_ + row * kBlockSize;
     return hn::Add(hn::Set(DD(), f0_ + gy_ * (gy_ > 0 ? y : y + (kBlockSize - 1))), hn::Load(DD(), least_x_ + i));

@@ -1,31 +1,6 @@
 // Triangles whose program takes many blocks in one call: which blocks of the tile, and which pixels of each.
 // Exact in int32, as triangle.inl is. Compiled once per ISA level.
 
-// One bit a lane: set where the value is negative.
-template <class D>
-HWY_INLINE unsigned NegativeLanes(D d, hn::Vec<D> v) {
-#if HWY_TARGET == HWY_SCALAR
-  (void)d;
-  return hn::GetLane(v) < 0 ? 1u : 0u;
-#elif HWY_TARGET == HWY_AVX3
-  (void)d;
-  if constexpr (sizeof v == 64)
-    return _cvtmask16_u32(_mm512_movepi32_mask(v.raw));
-  else
-    return _cvtmask8_u32(_mm256_movepi32_mask(v.raw));
-#elif HWY_TARGET == HWY_AVX2
-  (void)d;
-  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(v.raw)));
-#elif HWY_TARGET == HWY_SSE4
-  (void)d;
-  return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(v.raw)));
-#else
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, hn::Lt(v, hn::Zero(d)), bits);
-  return bits[0];
-#endif
-}
-
 alignas(64) inline constexpr int32_t kColumnOfLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) inline constexpr int32_t kRowOfLane[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
 
@@ -164,8 +139,7 @@ HWY_INLINE void RunGroups(TileContext& t, unsigned lanes, const GroupList& list,
   const int lane = __builtin_ctz(lanes);
   if ((t.packer.blocks & blocks) != 0) FlushPacked(t);
   PrepareWindow(t, blocks);
-  t.statistics->fragments += list.fragments;
-  if ((t.setup.variant[lane] & kDouble) != 0) t.statistics->double_fragments += list.fragments;
+  AddFragments(t, lane, list.fragments);
   BlockContext& c = t.block;
   c.lane = lane;
   c.groups = list.groups;

@@ -59,11 +59,13 @@ struct TileContext {
 #include "raster/tile/coarse_depth.inl"
 #include "raster/tile/fill.inl"
 
-// Of each bit of `mask`, as many as `each`: of blocks, all their pixels.
-HWY_INLINE void CountFragments(TileContext& t, int lane, uint64_t mask, int each = kBlockPixels) {
-  const uint64_t fragments = static_cast<uint64_t>(__builtin_popcountll(mask)) * static_cast<uint64_t>(each);
+HWY_INLINE void AddFragments(TileContext& t, int lane, uint64_t fragments) {
   t.statistics->fragments += fragments;
   if ((t.setup.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
+}
+// Of each bit of `mask`, as many as `each`: of blocks, all their pixels.
+HWY_INLINE void CountFragments(TileContext& t, int lane, uint64_t mask, int each = kBlockPixels) {
+  AddFragments(t, lane, static_cast<uint64_t>(__builtin_popcountll(mask)) * static_cast<uint64_t>(each));
 }
 
 HWY_INLINE void SelectColor(TileContext& t, int block, int plane) {
@@ -253,22 +255,8 @@ void TakeWholeBlocks(TileContext& t, int lane, uint64_t covered, const BlockProg
 #include "raster/tile/group_batch.inl"
 #include "raster/tile/pixel_batch.inl"
 
-void WalkTriangle(TileContext& t, int lane, bool packs) {
-  if (TileHides(t, lane)) return;
-  t.even = HasEvenColor(t, lane);
-  const BlockProgram& stages = t.even ? t.program->even : t.program->variants[t.setup.variant[lane]];
-  const bool collects =
-      stages.whole.fills || (t.notes == nullptr && (stages.whole.exists() || stages.nearer.exists()));
-  if (stages.groups != nullptr && t.notes == nullptr && t.block.meter == nullptr) {
-    WalkGroups(t, lane, stages, collects);
-    t.even = false;
-    return;
-  }
-  if (stages.whole.row_count != 0 && t.notes == nullptr && t.block.meter == nullptr) {
-    WalkRows(t, lane, stages, packs);
-    t.even = false;
-    return;
-  }
+// Block by block, for programs that have no other way.
+void WalkEachBlock(TileContext& t, int lane, const BlockProgram& stages, bool packs, bool collects) {
   const TriangleWalk walk(t.setup, lane);
   const bool whole = !t.masks_blocks && walk.CoversTile();
   uint64_t covered = 0;
@@ -281,6 +269,18 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
     covered = WalkBlocks(t, walk, lane, packs, collects);
   }
   TakeWholeBlocks(t, lane, covered, stages);
+}
+
+void WalkTriangle(TileContext& t, int lane, bool packs) {
+  if (TileHides(t, lane)) return;
+  t.even = HasEvenColor(t, lane);
+  const BlockProgram& stages = t.even ? t.program->even : t.program->variants[t.setup.variant[lane]];
+  const bool collects =
+      stages.whole.fills || (t.notes == nullptr && (stages.whole.exists() || stages.nearer.exists()));
+  const bool plain = t.notes == nullptr && t.block.meter == nullptr;
+  if (plain && stages.groups != nullptr) WalkGroups(t, lane, stages, collects);
+  else if (plain && stages.whole.row_count != 0) WalkRows(t, lane, stages, packs);
+  else WalkEachBlock(t, lane, stages, packs, collects);
   t.even = false;
 }
 

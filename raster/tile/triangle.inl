@@ -1,5 +1,30 @@
 // Walking a triangle over the blocks of a tile: half-space tests, exact in int32. Compiled once per ISA level.
 
+// One bit a lane: set where the value is negative.
+template <class D>
+HWY_INLINE unsigned NegativeLanes(D d, hn::Vec<D> v) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)d;
+  return hn::GetLane(v) < 0 ? 1u : 0u;
+#elif HWY_TARGET == HWY_AVX3
+  (void)d;
+  if constexpr (sizeof v == 64)
+    return _cvtmask16_u32(_mm512_movepi32_mask(v.raw));
+  else
+    return _cvtmask8_u32(_mm256_movepi32_mask(v.raw));
+#elif HWY_TARGET == HWY_AVX2
+  (void)d;
+  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(v.raw)));
+#elif HWY_TARGET == HWY_SSE4
+  (void)d;
+  return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(v.raw)));
+#else
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, hn::Lt(v, hn::Zero(d)), bits);
+  return bits[0];
+#endif
+}
+
 struct TriangleWalk {
   using D = hn::CappedTag<int32_t, kBlockSize>;
   static constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));  // a row, or a part of one
@@ -65,22 +90,11 @@ struct TriangleWalk {
         step[k] = hn::Set(d, step_y[k]);
       }
       for (int row = first; row <= last; ++row) {
-        mask |= InsideBits(d, hn::Or(hn::Or(v[0], v[1]), v[2])) << (row * kBlockSize + column);
+        const uint64_t inside = ~NegativeLanes(d, hn::Or3(v[0], v[1], v[2])) & ((1u << kWidth) - 1);
+        mask |= inside << (row * kBlockSize + column);
         for (int k = 0; k < 3; ++k) v[k] = hn::Add(v[k], step[k]);
       }
     }
     return mask;
-  }
-
-  // One bit a lane: set where the value is not negative.
-  static HWY_INLINE uint64_t InsideBits(D d, hn::Vec<D> value) {
-#if HWY_TARGET == HWY_SCALAR
-    (void)d;
-    return hn::GetLane(value) < 0 ? 0u : 1u;
-#else
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Lt(value, hn::Zero(d)), bits);
-    return ~uint64_t{bits[0]} & ((uint64_t{1} << kWidth) - 1);
-#endif
   }
 };
