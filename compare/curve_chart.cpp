@@ -60,7 +60,7 @@ class Plot {
   void draw() {
     svg_.text(left_ + 16, 22, chart_.title, {"start", ink::kText, 14, true});
     grid();
-    double key = left_ + kLeft;
+    double key = left_ + 16;
     for (size_t i = 0; i < chart_.curves.size(); ++i) {
       curve(chart_.curves[i], kStyles[i % kStyles.size()]);
       key += legend(chart_.curves[i], kStyles[i % kStyles.size()], key);
@@ -99,7 +99,7 @@ class Plot {
     constexpr double kBase = 44;
     svg_.line(x, kBase - 4, x + kKey, kBase - 4, style.color, 2, style.dashes);
     svg_.text(x + kKey + 5, kBase, curve.label, {"start", style.color});
-    return kKey + 5 + text_width(curve.label) + 16;
+    return kKey + 5 + text_width(curve.label) + 12;
   }
 
   Svg& svg_;
