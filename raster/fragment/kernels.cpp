@@ -298,9 +298,12 @@ HWY_INLINE void RunListedGroups(BlockContext& c) {
 
 HWY_INLINE bool AlphaIsLevelInGroups(const BlockContext& c) {
   const int alpha = c.params->color_plane + 3;
+  const float *across = c.setup->dfdx_f[alpha], *up = c.setup->dfdy_f[alpha];
   unsigned level = 0;
-  for (int lane = 0; lane < kSetupLanes; ++lane)
-    level |= (c.setup->dfdx_f[alpha][lane] == 0 && c.setup->dfdy_f[alpha][lane] == 0 ? 1u : 0u) << lane;
+  for (int lane = 0; lane < kSetupLanes; ++lane) {
+    const bool is_level = across[lane] == 0 && up[lane] == 0;
+    level |= unsigned{is_level} << lane;
+  }
   return (c.group_lanes & ~level) == 0;
 }
 
