@@ -83,6 +83,15 @@ struct alignas(64) PixelQueue {
   int count = 0;
 };
 
+// Of the pixels of two rows of a block, in order: column and row.
+template <class T>
+struct TwoRows {
+  alignas(64) T column[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+  alignas(64) T row[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
+};
+template <class T>
+inline constexpr TwoRows<T> kTwoRows;
+
 // As many pixels of a tile as a kernel has lanes: the how many-th such group it is, the primitive it is of, as a lane of
 // its batch, and which pixels are live.
 struct TileGroup {

@@ -2,9 +2,6 @@
 // value is (f0 + dfdy * dy) + dfdx * dx as in lanes.inl, with the same bits. Pixels count from the tile's
 // first, block by block.
 
-alignas(64) inline constexpr float kColumnOfLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
-alignas(64) inline constexpr float kRowOfLane[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
-
 // Whether a list may hold groups of several primitives of a batch (raster/tile/group_batch.inl). Then what a
 // plane needs is loaded for each group, which costs nothing where an instruction takes it as its operand;
 // else once for all.
@@ -32,7 +29,7 @@ struct GroupPlane {
     const __m512 columns = _mm512_castpd_ps(
         _mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_load_ps(kTileSteps.single + ColumnInTile(i)))));
     const __m512 rows =
-        _mm512_add_ps(_mm512_load_ps(kRowOfLane), _mm512_set1_ps(kTileSteps.single[RowInTile(i)]));
+        _mm512_add_ps(_mm512_load_ps(kTwoRows<float>.row), _mm512_set1_ps(kTileSteps.single[RowInTile(i)]));
     const __m512 dx = _mm512_add_ps(columns, _mm512_set1_ps(s.anchor_x_f[lane]));
     const __m512 dy = _mm512_add_ps(rows, _mm512_set1_ps(s.anchor_y_f[lane]));
     const __m512 up = _mm512_mul_ps(dy, _mm512_set1_ps(s.dfdy_f[plane][lane]));
@@ -98,8 +95,8 @@ struct GroupPlane {
         y(c.setup->anchor_y_f[c.lane]) {}
   HWY_INLINE VF At(int i) const {
     const DF d;
-    const VF dx = hn::Add(hn::Load(d, kColumnOfLane), hn::Set(d, x + static_cast<float>(ColumnInTile(i))));
-    const VF dy = hn::Add(hn::Load(d, kRowOfLane), hn::Set(d, y + static_cast<float>(RowInTile(i))));
+    const VF dx = hn::Add(hn::Load(d, kTwoRows<float>.column), hn::Set(d, x + static_cast<float>(ColumnInTile(i))));
+    const VF dy = hn::Add(hn::Load(d, kTwoRows<float>.row), hn::Set(d, y + static_cast<float>(RowInTile(i))));
     return hn::Add(hn::Add(f0, hn::Mul(dfdy, dy)), hn::Mul(dfdx, dx));
   }
 };

@@ -1,9 +1,6 @@
 // Triangles whose program takes many blocks in one call: which blocks of the tile, and which pixels of each.
 // Exact in int32, as triangle.inl is. Compiled once per ISA level.
 
-alignas(64) inline constexpr int32_t kColumnOfLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
-alignas(64) inline constexpr int32_t kRowOfLane[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
-
 struct GroupWalk {
   using DP = hn::CappedTag<int32_t, 16>;          // pixels: two rows of a block, one, or a part of one
   using DB = hn::CappedTag<int32_t, kBlockSize>;  // blocks: a row of the tile's, or a part of one
@@ -25,11 +22,11 @@ struct GroupWalk {
     for (int column = 0; column < kBlockSize; column += kColumns) {
       hn::Vec<DP> e[3], step[3];
       for (int k = 0; k < 3; ++k) {
-        const auto across = hn::Mul(hn::Load(d, kColumnOfLane), hn::Set(d, step_x[k]));
+        const auto across = hn::Mul(hn::Load(d, kTwoRows<int32_t>.column), hn::Set(d, step_x[k]));
         e[k] = hn::Add(across, hn::Set(d, edge[k] + step_x[k] * (x + column) + step_y[k] * y));
         step[k] = hn::Set(d, step_y[k] * kRows);
         if constexpr (kRows > 1)
-          e[k] = hn::Add(e[k], hn::Mul(hn::Load(d, kRowOfLane), hn::Set(d, step_y[k])));
+          e[k] = hn::Add(e[k], hn::Mul(hn::Load(d, kTwoRows<int32_t>.row), hn::Set(d, step_y[k])));
       }
       for (int row = 0; row < kBlockSize; row += kRows) {
         outside |= uint64_t{NegativeLanes(d, hn::Or3(e[0], e[1], e[2]))} << (row * kBlockSize + column);
@@ -51,7 +48,7 @@ struct GroupWalk {
         const int32_t rise_x = step_x[k] > 0 ? step_x[k] : 0, rise_y = step_y[k] > 0 ? step_y[k] : 0;
         const int32_t highest = (kBlockSize - 1) * (rise_x + rise_y);
         const int32_t lowest = (kBlockSize - 1) * (step_x[k] - rise_x + step_y[k] - rise_y);
-        const auto at = hn::Add(hn::Mul(hn::Load(d, kColumnOfLane), hn::Set(d, step_x[k] * kBlockSize)),
+        const auto at = hn::Add(hn::Mul(hn::Load(d, kTwoRows<int32_t>.column), hn::Set(d, step_x[k] * kBlockSize)),
                                 hn::Set(d, edge[k] + step_x[k] * kBlockSize * column));
         most[k] = hn::Add(at, hn::Set(d, highest));
         least[k] = hn::Add(at, hn::Set(d, lowest));
