@@ -197,9 +197,9 @@ concept RunsInGroups = RunsInTiles<Body> || requires { Body::kInGroups; };
 template <class Body>
 concept TakesAlpha = requires { Body::kTakesAlpha; } && Body::kTakesAlpha;
 
-HWY_INLINE bool AlphaIsLevel(const BlockContext& c) {
+HWY_INLINE bool AlphaIsLevel(const BlockContext& c, int lane) {
   const int alpha = c.params->color_plane + 3;
-  return c.setup->dfdx_f[alpha][c.lane] == 0 && c.setup->dfdy_f[alpha][c.lane] == 0;
+  return c.setup->dfdx_f[alpha][lane] == 0 && c.setup->dfdy_f[alpha][lane] == 0;
 }
 
 template <class L, StageId... ids>
@@ -220,7 +220,7 @@ template <StageId... ids>
 void RunTileBlocks(BlockContext& c) {
   constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
   if constexpr ((TakesAlpha<typename BodyOf<ids>::Type> || ...)) {
-    if (AlphaIsLevel(c))
+    if (AlphaIsLevel(c, c.lane))
       return RunBlocks<std::conditional_t<kKills, TileLanes<true>, FullTileLanes<true>>, ids...>(c);
   }
   RunBlocks<std::conditional_t<kKills, TileLanes<false>, FullTileLanes<false>>, ids...>(c);
@@ -296,15 +296,13 @@ HWY_INLINE void RunListedGroups(BlockContext& c) {
   if constexpr (kKills) c.group_count = static_cast<int>(left - c.groups);
 }
 
+// Of all primitives that the list is of.
 HWY_INLINE bool AlphaIsLevelInGroups(const BlockContext& c) {
-  const int alpha = c.params->color_plane + 3;
-  const float *across = c.setup->dfdx_f[alpha], *up = c.setup->dfdy_f[alpha];
-  unsigned level = 0;
-  for (int lane = 0; lane < kSetupLanes; ++lane) {
-    const bool is_level = across[lane] == 0 && up[lane] == 0;
-    level |= unsigned{is_level} << lane;
-  }
-  return (c.group_lanes & ~level) == 0;
+  if constexpr (!kGroupsOfMany) return AlphaIsLevel(c, c.lane);
+  bool level = true;
+  for (unsigned todo = c.group_lanes; todo != 0; todo &= todo - 1)
+    level &= AlphaIsLevel(c, __builtin_ctz(todo));
+  return level;
 }
 
 template <StageId... ids>
