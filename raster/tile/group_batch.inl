@@ -1,13 +1,13 @@
-// Triangles of one batch together, where what lies in the tile of each fits a window of 32 x 16 pixels: their
-// groups make one list, so that each kernel is called once for all of them. A row's pixels are a span, from
-// the rightmost of the edges it enters by to the leftmost of those it leaves by; sixteen rows are found at
-// once, in float. For AVX-512 only, where a list may hold groups of several primitives; others walk each
-// triangle alone.
+// Triangles of one batch together, where the edges of each are short enough for floats (kSpanStep): their
+// groups make one list, so that each kernel is called once for all of them. What lies in the tile of a
+// triangle is looked through in windows of 32 x 16 pixels. A row's pixels are a span, from the rightmost of
+// the edges it enters by to the leftmost of those it leaves by; a window's sixteen rows are found at once.
+// For AVX-512 only, where a list may hold groups of several primitives; others walk each triangle alone.
 
 inline constexpr int kSpanWidth = GroupDepths::kColumns, kSpanRows = GroupDepths::kRows;
 
 #if HWY_TARGET == HWY_AVX3
-// Edges shorter than this along either axis: then whatever decides about a pixel of the window is below 2^21,
+// Edges of less than 64 pixels along either axis, the steps of their values: then whatever decides about a pixel of the window is below 2^21,
 // and exact in float. Where an edge is crossed is e / step: within the window off by less than 2^-17 as a
 // float, and it lies at least 2^-14 from the integers it is none of.
 inline constexpr int32_t kSpanStep = 1 << 14;
@@ -140,7 +140,7 @@ class GroupBatch {
   // Of the first `count` primitives of the batch.
   HWY_INLINE GroupBatch(TileContext& t, int count)
       : t_(t), list_(t.groups, 0), length_(_mm512_setzero_si512()) {
-    if (!t.stippled && t.notes == nullptr && t.block.meter == nullptr)
+    if (!t.stippled && !IsWatched(t))
       spans_.Make(t.setup, (1u << count) - 1);
     else
       spans_.fits = 0;

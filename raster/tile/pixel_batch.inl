@@ -270,7 +270,7 @@ HWY_INLINE __mmask8 ShortSides(const SetupBatch& s) {
 // pixels.
 HWY_INLINE unsigned ListableTriangles(const TileContext& t, int count) {
   const SetupBatch& s = t.setup;
-  if (!t.program->packs || t.notes != nullptr || t.block.meter != nullptr) return 0;
+  if (!t.program->packs || IsWatched(t)) return 0;
   const WindowSizes sizes(s);
   const unsigned all = (1u << count) - 1, empty = sizes.Empty() & all,
                  small = sizes.Below(kWindow) & ShortSides(s) & all & ~empty;

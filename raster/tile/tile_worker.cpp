@@ -252,6 +252,9 @@ void TakeWholeBlocks(TileContext& t, int lane, uint64_t covered, const BlockProg
 }
 
 #include "raster/tile/group_walk.inl"
+// Somebody wants to know of each block what was drawn there.
+HWY_INLINE bool IsWatched(const TileContext& t) { return t.notes != nullptr || t.block.meter != nullptr; }
+
 #include "raster/tile/group_batch.inl"
 #include "raster/tile/pixel_batch.inl"
 
@@ -277,7 +280,7 @@ void WalkTriangle(TileContext& t, int lane, bool packs) {
   const BlockProgram& stages = t.even ? t.program->even : t.program->variants[t.setup.variant[lane]];
   const bool collects =
       stages.whole.fills || (t.notes == nullptr && (stages.whole.exists() || stages.nearer.exists()));
-  const bool plain = t.notes == nullptr && t.block.meter == nullptr;
+  const bool plain = !IsWatched(t);
   if (plain && stages.groups != nullptr) WalkGroups(t, lane, stages, collects);
   else if (plain && stages.whole.row_count != 0) WalkRows(t, lane, stages, packs);
   else WalkEachBlock(t, lane, stages, packs, collects);
