@@ -13,7 +13,8 @@ constexpr size_t kMaxBytes = size_t{1} << 18;  // shaded vertices
 constexpr size_t kMaxPrimitives = size_t{1} << 13;
 // Limits are so many times as large where what is pending lies scattered: less than kDensePrimitives of it in each of its
 // tiles. To visit a tile again costs more then than vertices that have left the cache: 1.2 times as fast with triangles
-// of 100 pixels, 1.1 with 65. Lines and points have too few pixels for that.
+// of 100 pixels, 1.1 with 65. Lines and points have too few pixels for that. Nothing is gained while primitives go on to
+// other tiles, as a mesh's do row by row: the batch ends when it has half as many tiles again as at the limits.
 constexpr uint32_t kScatteredScale = 8;
 constexpr size_t kDensePrimitives = 256;
 // A draw brings some three kilobytes, of its state for the most part: more draws than these are not in the
@@ -87,18 +88,22 @@ bool Batch::is_covered_by(const ClearCommand& command, const Framebuffer::Impl& 
          (command.stencil || !stencil_) && clears_everything(target, command);
 }
 
-bool Batch::is_full(uint32_t scale) const {
-  size_t primitives = 0, touched = 0;
+bool Batch::is_full(uint32_t scale) {
+  size_t primitives = 0, touched = 0, widest = 0;
   for (const Segment* segment : pending_) {
     primitives += segment->primitives.size() + segment->point_count / 2;
     touched += segment->touched.size();
+    widest = std::max(widest, segment->touched.size());
   }
   const auto exceeds = [&](uint32_t times) {
     return arena.bytes_in_use() > kMaxBytes * times || primitives > kMaxPrimitives * times;
   };
   const bool many_texels = textures_.size() > 1 && texture_bytes_ > kMaxTextureBytes;
   if (many_texels || draws.size() >= kMaxDraws || exceeds(std::max(scale, kScatteredScale))) return true;
-  return exceeds(scale) && (primitives >= kDensePrimitives * touched || !ends_with_triangle());
+  if (!exceeds(scale)) return false;
+  if (tiles_at_limit_ == 0) tiles_at_limit_ = widest;
+  const bool spreads = widest > tiles_at_limit_ + tiles_at_limit_ / 2;
+  return primitives >= kDensePrimitives * touched || spreads || !ends_with_triangle();
 }
 
 bool Batch::ends_with_triangle() const {
@@ -141,6 +146,7 @@ void Batch::discard() {
   targets_ = 0;
   stencil_ = false;
   last_is_open_ = false;
+  tiles_at_limit_ = 0;
   draws.clear();
   images.clear();
   programs_.clear();

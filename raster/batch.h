@@ -34,7 +34,7 @@ class Batch {
   bool is_covered_by(const ClearCommand& command, const Framebuffer::Impl& target) const;
   bool empty() const { return pending_.empty(); }
   // Enough to be executed: memory stays bounded whatever a frame draws. `scale`: of the limits.
-  bool is_full(uint32_t scale) const;
+  bool is_full(uint32_t scale);
   // Tiles with something to draw, or all of them, as tasks for `workers`: ends[w] ends the stretch of worker
   // w, which is dealt the same tiles each time.
   void deal_tiles(const Framebuffer::Impl& target, bool all, int workers);
@@ -53,6 +53,7 @@ class Batch {
   std::vector<std::unique_ptr<Segment>> all_segments_;
   std::vector<Segment*> pending_;
   bool last_is_open_ = false;
+  size_t tiles_at_limit_ = 0;  // of the segment with most tiles, when the limits were passed
   std::vector<uint64_t> marks_;  // of tiles, while they are dealt
   uint8_t targets_ = 0;          // colour planes drawn to
   bool stencil_ = false;         // whether the stencil plane may be written

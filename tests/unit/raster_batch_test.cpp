@@ -94,15 +94,15 @@ TEST_F(BatchTest, ManySmallDrawsFillIt) {
   EXPECT_LE(draws, 1024) << "several kilobytes each";
 }
 
-// How many primitives of a kind fill a batch, dealt to so many tiles in turn.
-size_t primitives_to_fill(PrimitiveKind kind, int tiles) {
+// How many primitives of a kind fill a batch, dealt to so many tiles in turn, `run` of them to one before the next.
+size_t primitives_to_fill(PrimitiveKind kind, int tiles, int run = 1) {
   const Framebuffer::Impl framebuffer(16 * kTileSize, 16 * kTileSize, ColorFormat::rgba8, 1);
   Batch batch;
   Segment& segment = batch.open_segment(framebuffer);
   const PrimitiveRef one{{0, 1, 2}, kind, false, false, 0};
   for (uint32_t i = 0; !batch.is_full(1) && i < 1000000; ++i) {
     segment.primitives.push_back(one);
-    const int tile = static_cast<int>(i) % tiles;
+    const int tile = static_cast<int>(i) / run % tiles;
     push_to_bin(segment, tile % 16, tile / 16, i);
   }
   return segment.primitives.size();
@@ -114,6 +114,11 @@ TEST_F(BatchTest, TrianglesThatLieScatteredAreCollectedLonger) {
   EXPECT_GE(primitives_to_fill(PrimitiveKind::triangle, 256), 4 * dense);
   EXPECT_LE(primitives_to_fill(PrimitiveKind::triangle, 256), 16 * dense) << "memory is bounded";
   EXPECT_EQ(primitives_to_fill(PrimitiveKind::line, 256), dense);
+}
+
+TEST_F(BatchTest, TrianglesThatGoOnToOtherTilesAreNot) {
+  const size_t dense = primitives_to_fill(PrimitiveKind::triangle, 4);
+  EXPECT_LE(primitives_to_fill(PrimitiveKind::triangle, 256, 128), 2 * dense) << "no tile is visited once less";
 }
 
 TEST(RecycledTest, ObjectsStayInPlaceAndComeBackFresh) {
