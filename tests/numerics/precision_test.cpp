@@ -26,6 +26,7 @@ constexpr double kSlack = 4e-5;                    // levels: a float target's o
 struct Primitive3 {
   std::vector<Vertex> vertices = std::vector<Vertex>(3);
   std::array<oracle::ClipPoint, 3> clip;
+  int step = 3;  // from one pixel that is looked at to the next
 };
 
 // Of all sizes and tilts: a few pixels or the whole guard band, w constant, or in ratios up to 10^6.
@@ -49,11 +50,34 @@ Primitive3 random_primitive(Random& random) {
   return p;
 }
 
-// Calls check(x, y) for some pixels the triangle covers, of a window of kSize pixels around its middle.
+// Long and thin, with slopes so great that what they add up to over the length leaves few of a float's bits: here the
+// colours' own bound has to choose, since 1/w is near enough. Of which side the third corner lies is left to chance.
+Primitive3 random_sliver(Random& random) {
+  Primitive3 p;
+  p.step = 1;
+  const float angle = random.real(0, 6.28f), length = float(std::pow(2.0, double(random.real(-6, 0))));
+  const float along_x = std::cos(angle) * length, along_y = std::sin(angle) * length;
+  const float thin = random.real(-1, 1) * float(std::pow(10.0, double(random.real(-4, -1))));
+  const float at = random.real(0.1f, 0.9f);
+  const float x[3] = {-along_x, along_x, (2 * at - 1) * along_x - thin * along_y};
+  const float y[3] = {-along_y, along_y, (2 * at - 1) * along_y + thin * along_x};
+  const float decades = random.integer(0, 1) == 0 ? 0 : random.real(0, 1);
+  for (size_t i = 0; i < 3; ++i) {
+    Vertex& v = p.vertices[i];
+    v.w = float(std::pow(10.0, double(random.real(0, 1) * decades)));
+    v.x = v.w * x[i];
+    v.y = v.w * y[i];
+    v.z = 0;
+    p.clip[i] = {double(v.x), double(v.y), 0, double(v.w)};
+  }
+  return p;
+}
+
+// Calls check(x, y) for pixels the triangle covers, every `step`-th of a window of kSize pixels around its middle.
 template <typename Check>
-void for_covered(const oracle::Triangle& triangle, const Rect& window, const Check& check) {
-  for (int y = window.y0; y < window.y1; y += 3) {
-    for (int x = window.x0; x < window.x1; x += 3) {
+void for_covered(const oracle::Triangle& triangle, const Rect& window, int step, const Check& check) {
+  for (int y = window.y0; y < window.y1; y += step) {
+    for (int x = window.x0; x < window.x1; x += step) {
       if (triangle.covers(x, y)) check(x, y);
     }
   }
@@ -64,14 +88,16 @@ struct Count {
   double worst = 0;
 };
 
+using MakePrimitive = Primitive3 (*)(Random&);
+
 // `dark`: colours of a few levels at most, where the bound of 1/w alone decides.
-Count compare_colors(uint64_t seed, int count, int viewport, bool dark) {
+Count compare_colors(uint64_t seed, int count, int viewport, bool dark, MakePrimitive make) {
   Random random(seed);
   Count result;
   Canvas canvas(kSize, kSize, 1, ColorFormat::rgba32f);
   std::vector<float> pixels(kSize * kSize * 4);
   for (int n = 0; n < count; ++n) {
-    Primitive3 p = random_primitive(random);
+    Primitive3 p = make(random);
     for (Vertex& v : p.vertices) {
       const float most = dark ? float(std::pow(10.0, double(random.real(-7, -1)))) : 1;
       v.color = {random.real(0, most), random.real(0, most), random.real(0, most), random.real(0, most)};
@@ -89,7 +115,7 @@ Count compare_colors(uint64_t seed, int count, int viewport, bool dark) {
     canvas.device().read_color_float({0, 0, kSize, kSize}, pixels.data());
     if (canvas.device().statistics().double_fragments != before) ++result.in_double;
     ++result.primitives;
-    for_covered(triangle, {0, 0, kSize, kSize}, [&](int x, int y) {
+    for_covered(triangle, {0, 0, kSize, kSize}, p.step, [&](int x, int y) {
       ++result.pixels;
       for (size_t k = 0; k < 4; ++k) {
         std::array<long double, 3> values;
@@ -109,12 +135,12 @@ Count compare_colors(uint64_t seed, int count, int viewport, bool dark) {
 
 int primitives() { return long_tests() ? 340000 : 1500; }
 
-TEST(PrecisionOnDemand, ColoursAreNeverFartherOffThanDerived) {
+void expect_near_colors(MakePrimitive make) {
   uint64_t floats = 0, doubles = 0, pixels = 0;
   double worst = 0;
   for (const int viewport : {64, 512, 8192}) {
     for (const bool dark : {false, true}) {
-      const Count count = compare_colors(uint64_t(viewport) + dark, primitives() / 3, viewport, dark);
+      const Count count = compare_colors(uint64_t(viewport) + dark, primitives() / 3, viewport, dark, make);
       EXPECT_LE(count.worst, kColorBound + kSlack) << "viewport " << viewport << (dark ? ", dark" : "");
       doubles += count.in_double, floats += count.primitives - count.in_double, pixels += count.pixels;
       worst = std::max(worst, count.worst);
@@ -125,6 +151,10 @@ TEST(PrecisionOnDemand, ColoursAreNeverFartherOffThanDerived) {
   EXPECT_GT(floats, doubles / 10);
   EXPECT_GT(doubles, floats / 100);
 }
+
+TEST(PrecisionOnDemand, ColoursAreNeverFartherOffThanDerived) { expect_near_colors(random_primitive); }
+
+TEST(PrecisionOnDemand, ColoursOfSliversAreNeverFartherOffThanDerived) { expect_near_colors(random_sliver); }
 
 // Through a linear filter, where half a texel off is half the difference of two texels.
 TEST(PrecisionOnDemand, CoordinatesAreNeverFartherOffThanDerived) {
@@ -157,7 +187,7 @@ TEST(PrecisionOnDemand, CoordinatesAreNeverFartherOffThanDerived) {
     if (canvas.device().statistics().double_fragments != before) ++doubles;
     const std::array<long double, 3> s{(long double)(p.vertices[0].s), (long double)(p.vertices[1].s),
                                        (long double)(p.vertices[2].s)};
-    for_covered(triangle, {0, 0, kSize, kSize}, [&](int x, int y) {
+    for_covered(triangle, {0, 0, kSize, kSize}, p.step, [&](int x, int y) {
       ++compared;
       const auto at = triangle.attribute(s, x, y).value;
       const oracle::Rgba truth = oracle::sample_level(reference, 0, Filter::linear, at, 0.5L);
