@@ -51,17 +51,6 @@ void copy_blocks_rgba8(const Framebuffer::Impl& fb, int plane, int x0, int x1, i
 // `band`: 0 to 7, from the tile's lowest.
 uint64_t band_of(uint64_t marks, int band) { return marks >> (band * 8) & 0xff; }
 
-TileBand tile_band(const Framebuffer::Impl& fb, size_t tile, int plane, int band, const uint32_t* clear_row) {
-  TileBand rows;
-  const uint64_t marks = band_of(fb.tiles[tile].color[plane].is_clear, band);
-  for (int b = 0; b < 8; ++b) {
-    const bool marked = is_marked(marks, b);
-    rows.block[b] = marked ? clear_row : fb.color_tile<uint32_t>(tile, plane) + (band * 8 + b) * kBlockPixels;
-    rows.step[b] = marked ? 0 : kBlockSize;
-  }
-  return rows;
-}
-
 void copy_blocks_float(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, float* out) {
   for_block_rows(fb, x0, x1, y, [&](const BlockRow& row, int at) {
     const ColorMarks& marks = fb.tiles[row.tile].color[plane];
@@ -171,66 +160,101 @@ void resolve_row(const Framebuffer::Impl& fb, int plane, int x0, int x1, int y, 
   store_row_bytes(rgba, count, image.layout, out);
 }
 
-// Eight rows of some neighbouring tiles, onto an image of bytes. All of them at once, since memory likes its rows whole.
+// Tiles of a row onto an image of bytes, in bands of eight rows. All tiles at once, since memory likes its rows whole.
 struct BandWriter {
+  static constexpr uint32_t kMostTiles = 64;
+  struct Tile {
+    uint64_t is_clear;
+    uint32_t value;
+    const uint32_t* pixels;
+  };
+
   const Framebuffer::Impl& fb;
   int plane;
   const Placed& placed;
   const Rect& rect;  // of the tiles, what the image has
   RowFunctions rows;
   bool direct;
+  int left;      // of the first tile
+  bool cleared;  // all over, with one colour
+  Tile tiles[kMostTiles];
 
-  BandWriter(const Framebuffer::Impl& framebuffer, int plane_of, const Placed& image, const Rect& part)
+  BandWriter(const Framebuffer::Impl& framebuffer, int plane_of, const Placed& image, const Rect& part, uint32_t first,
+             uint32_t count)
       : fb(framebuffer), plane(plane_of), placed(image), rect(part), rows(row_functions()),
-        direct(takes_rgba8(image.image)) {}
+        direct(takes_rgba8(image.image)), left(fb.tile_rect(first).x0), cleared(true) {
+    for (uint32_t i = 0; i < count; ++i) {
+      const ColorMarks& marks = fb.tiles[first + i].color[plane];
+      tiles[i] = {marks.is_clear, marks.rgba8, nullptr};
+      if (marks.is_clear != ~uint64_t{0}) tiles[i].pixels = fb.color_tile<uint32_t>(first + i, plane);
+      cleared = cleared && tiles[i].pixels == nullptr && marks.rgba8 == tiles[0].value;
+    }
+  }
 
   PixelRows at(int x, int y) const {
     const ptrdiff_t step = placed.image.row_bytes / static_cast<ptrdiff_t>(sizeof(uint32_t));
     return {reinterpret_cast<uint32_t*>(placed.at(x, y)), placed.image.y_up ? step : -step};
   }
 
-  // How far from x on, where a tile begins, there is one cleared colour only.
-  int end_of_clear(size_t tile, int band, int x) const {
-    const uint32_t value = fb.tiles[tile].color[plane].rgba8;
-    for (; x < rect.x1; x += kTileSize, ++tile) {
-      const ColorMarks& marks = fb.tiles[tile].color[plane];
-      if (marks.rgba8 != value || band_of(marks.is_clear, band) != 0xff) break;
-    }
-    return std::min(x, rect.x1);
+  // The blocks from x on, all cleared or none, that lie in one tile.
+  BlockRun run_at(int x, int end, int band) const {
+    const Tile& tile = tiles[(x - left) / kTileSize];
+    const int block = (x - left) % kTileSize / kBlockSize;
+    const auto ahead = static_cast<uint32_t>(band_of(tile.is_clear, band) >> block);
+    const bool clear = is_marked(ahead, 0);
+    const int alike = clear ? std::countr_one(ahead) : std::countr_zero(ahead);
+    const int blocks = std::min({alike, kTileSize / kBlockSize - block, (end - x) / kBlockSize});
+    return {clear ? nullptr : tile.pixels + (band * 8 + block) * kBlockPixels, tile.value, blocks};
   }
 
-  void convert_tile(const TileBand& band, int x, int y) const {
+  // Runs from x on, no further than `end` nor than there is room; returns where they end.
+  int find_runs(int x, int end, int band, BlockRun* runs, int room, int& count) const {
+    count = 0;
+    if (cleared) {
+      runs[count++] = {nullptr, tiles[0].value, (end - x) / kBlockSize};
+      return end;
+    }
+    while (x < end) {
+      const BlockRun run = run_at(x, end, band);
+      BlockRun* last = runs + count - 1;
+      if (count != 0 && run.pixels == nullptr && last->pixels == nullptr && last->value == run.value)
+        last->blocks += run.blocks;
+      else if (count == room) break;
+      else runs[count++] = run;
+      x += run.blocks * kBlockSize;
+    }
+    return x;
+  }
+
+  void convert(const BlockRun* runs, int count, int width, int x, int y) const {
     alignas(64) uint32_t pixels[kBlockSize * kTileSize];
-    rows.copy_band(band, {pixels, kTileSize});
+    rows.write_runs(runs, count, {pixels, kTileSize});
     if (placed.image.opaque)
       for (uint32_t& pixel : pixels) pixel |= 0xff000000u;
     for (int row = 0; row < kBlockSize; ++row)
-      store_row_bytes(pixels + row * kTileSize, kTileSize, placed.image.layout, placed.at(x, y + row));
+      store_row_bytes(pixels + row * kTileSize, width, placed.image.layout, placed.at(x, y + row));
+  }
+
+  // Less than a block's width.
+  void write_edge(int x, int end, int y) const {
+    for (int row = 0; x < end && row < kBlockSize; ++row) resolve_row(fb, plane, x, end, y + row, placed);
   }
 
   void write(int y) const {
-    const int band = y % kTileSize / kBlockSize;
-    for (int x = rect.x0; x < rect.x1;) {
-      const size_t tile = static_cast<size_t>(y / kTileSize) * static_cast<size_t>(fb.tiles_x) +
-                          static_cast<size_t>(x / kTileSize);
-      const int clear_end = direct ? end_of_clear(tile, band, x / kTileSize * kTileSize) : x;
-      if (clear_end > x) {
-        rows.fill_rows(fb.tiles[tile].color[plane].rgba8, clear_end - x, kBlockSize, at(x, y));
-        x = clear_end;
-        continue;
-      }
-      const int end = std::min(x / kTileSize * kTileSize + kTileSize, rect.x1);
-      if (end - x == kTileSize) {
-        alignas(64) uint32_t clear_row[kBlockSize];
-        std::fill_n(clear_row, kBlockSize, fb.tiles[tile].color[plane].rgba8);
-        const TileBand from = tile_band(fb, tile, plane, band, clear_row);
-        if (direct) rows.copy_band(from, at(x, y));
-        else convert_tile(from, x, y);
-      } else {
-        for (int row = 0; row < kBlockSize; ++row) resolve_row(fb, plane, x, end, y + row, placed);
-      }
-      x = end;
+    const int first = std::min((rect.x0 + kBlockSize - 1) / kBlockSize * kBlockSize, rect.x1);
+    const int end = std::max(rect.x1 / kBlockSize * kBlockSize, first);
+    write_edge(rect.x0, first, y);
+    for (int x = first; x < end;) {
+      constexpr int kRoom = 64;
+      BlockRun runs[kRoom];
+      int count = 0;
+      const int tile_end = std::min(x / kTileSize * kTileSize + kTileSize, end);
+      const int next = find_runs(x, direct ? end : tile_end, y % kTileSize / kBlockSize, runs, kRoom, count);
+      if (direct) rows.write_runs(runs, count, at(x, y));
+      else convert(runs, count, next - x, x, y);
+      x = next;
     }
+    write_edge(end, rect.x1, y);
   }
 };
 
@@ -287,13 +311,15 @@ void read_row_stencil(const Framebuffer::Impl& fb, int x0, int x1, int y, uint8_
 
 void resolve_tiles(const Framebuffer::Impl& fb, uint32_t first, uint32_t count, int plane, const LinearImage& image,
                    int left, int bottom) {
+  for (; count > BandWriter::kMostTiles; first += BandWriter::kMostTiles, count -= BandWriter::kMostTiles)
+    resolve_tiles(fb, first, BandWriter::kMostTiles, plane, image, left, bottom);
   const Placed placed{image, left, bottom};
   Rect tiles = fb.tile_rect(first);
   tiles.x1 = fb.tile_rect(first + count - 1).x1;
   const Rect rect = intersect(tiles, placed.rect());
   if (rect.empty()) return;
   const bool in_bands = fb.format == ColorFormat::rgba8 && !image.float_components;
-  const BandWriter bands(fb, plane, placed, rect);
+  const BandWriter bands(fb, plane, placed, rect, first, count);
   for (int y = rect.y0; y < rect.y1;) {
     if (in_bands && y % kBlockSize == 0 && y + kBlockSize <= rect.y1) {
       bands.write(y);

@@ -12,34 +12,77 @@ namespace halfspace::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void CopyBand(const TileBand& band, const PixelRows& out) {
-  const hn::CappedTag<uint32_t, kBlockSize> d;
-  for (int row = 0; row < kBlockSize; ++row) {
-    uint32_t* to = out.first + row * out.step;
-    for (int b = 0; b < 8; ++b, to += kBlockSize) {
-      const uint32_t* from = band.block[b] + row * band.step[b];
-      for (int i = 0; i < kBlockSize; i += static_cast<int>(hn::Lanes(d)))
-        hn::StoreU(hn::Load(d, from + i), d, to + i);
-    }
-  }
+// Less than a vector.
+HWY_INLINE void FillPart(uint32_t value, uint32_t* to, uint32_t* end) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  const hn::CappedTag<uint32_t, 16> d;
+  hn::BlendedStore(hn::Set(d, value), hn::FirstN(d, static_cast<size_t>(end - to)), d, to);
+#else
+  while (to < end) *to++ = value;
+#endif
 }
 
-void FillRows(uint32_t value, int width, int rows, const PixelRows& out) {
+// No store may cross a cache line, or even two pages: it would take many times as long, and callers' pictures begin
+// anywhere.
+HWY_INLINE void FillRow(uint32_t value, int width, uint32_t* to) {
   const hn::CappedTag<uint32_t, 16> d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(hn::CappedTag<uint32_t, 16>()));
   const auto all = hn::Set(d, value);
-  for (int row = 0; row < rows; ++row) {
+  uint32_t* end = to + width;
+  const auto past_line = static_cast<int>(reinterpret_cast<uintptr_t>(to) / sizeof *to % kLanes);
+  if (past_line != 0) {
+    uint32_t* line = to - past_line + kLanes;
+    if (line > end) line = end;
+    FillPart(value, to, line);
+    to = line;
+  }
+  for (; end - to >= 2 * kLanes; to += 2 * kLanes) {
+    hn::Store(all, d, to);
+    hn::Store(all, d, to + kLanes);
+  }
+  if (end - to >= kLanes) {
+    hn::Store(all, d, to);
+    to += kLanes;
+  }
+  if (to < end) FillPart(value, to, end);
+}
+
+HWY_INLINE void CopyRow(const uint32_t* from, int blocks, uint32_t* to) {
+  const hn::CappedTag<uint32_t, kBlockSize> d;
+  for (int b = 0; b < blocks; ++b, from += kBlockPixels, to += kBlockSize)
+    for (int i = 0; i < kBlockSize; i += static_cast<int>(hn::Lanes(d))) hn::StoreU(hn::Load(d, from + i), d, to + i);
+}
+
+HWY_INLINE void WriteRows(const BlockRun* runs, int count, const PixelRows& out) {
+  for (int row = 0; row < kBlockSize; ++row) {
     uint32_t* to = out.first + row * out.step;
-    int i = 0;
-    for (; i + 2 * kLanes <= width; i += 2 * kLanes) {
-      hn::StoreU(all, d, to + i);
-      hn::StoreU(all, d, to + i + kLanes);
+    for (const BlockRun* run = runs; run != runs + count; ++run) {
+      const int width = run->blocks * kBlockSize;
+      if (run->pixels == nullptr) FillRow(run->value, width, to);
+      else CopyRow(run->pixels + row * kBlockSize, run->blocks, to);
+      to += width;
     }
-    for (; i < width; ++i) to[i] = value;
   }
 }
 
-RowFunctions Functions() { return {&CopyBand, &FillRows}; }
+// Memory likes its rows whole, but what was drawn likes to be read in the order it lies in.
+void WriteRuns(const BlockRun* runs, int count, const PixelRows& out) {
+  bool drawn = true;
+  for (int i = 0; i < count; ++i) drawn = drawn && runs[i].pixels != nullptr;
+  if (drawn) {
+    PixelRows to = out;
+    for (int i = 0; i < count; ++i) {
+      WriteRows(runs + i, 1, to);
+      to.first += runs[i].blocks * kBlockSize;
+    }
+  } else if (count == 1 && out.step == runs->blocks * kBlockSize) {
+    FillRow(runs->value, runs->blocks * kBlockPixels, out.first);
+  } else {
+    WriteRows(runs, count, out);
+  }
+}
+
+RowFunctions Functions() { return {&WriteRuns}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace halfspace::raster

@@ -8,11 +8,11 @@
 
 namespace halfspace::raster {
 
-// Eight rows of a tile, block by block: where each block's rows begin and how far apart they are. A block
-// that is only marked as cleared has one row for all.
-struct TileBand {
-  const uint32_t* block[8];
-  int step[8];
+// A stretch of eight rows that takes whole blocks, neighbours in memory as in the picture.
+struct BlockRun {
+  const uint32_t* pixels;  // of the first block's lowest row; null: all of them hold one cleared colour
+  uint32_t value;          // that colour
+  int blocks;
 };
 
 // Rows of memory, `step` pixels apart; less than 0: downwards.
@@ -22,8 +22,8 @@ struct PixelRows {
 };
 
 struct RowFunctions {
-  void (*copy_band)(const TileBand& band, const PixelRows& out);  // 8 rows of 64 pixels
-  void (*fill_rows)(uint32_t value, int width, int rows, const PixelRows& out);
+  // Runs that follow each other, row by row from end to end: memory likes its rows whole.
+  void (*write_runs)(const BlockRun* runs, int count, const PixelRows& out);
 };
 // Those of the level in use.
 RowFunctions row_functions();

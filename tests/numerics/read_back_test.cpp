@@ -12,6 +12,14 @@ using namespace raster;
 
 constexpr int kWidth = 300, kHeight = 150;
 
+ClearCommand clear_of(const Rect& box, const Color& color) {
+  ClearCommand command;
+  command.color = command.scissor_test = true;
+  command.color_value = color;
+  command.scissor = box;
+  return command;
+}
+
 // Boxes of one colour over a cleared screen, some of them cleared themselves; and the same painted here.
 class Boxes {
  public:
@@ -51,11 +59,7 @@ class Boxes {
   }
   void clear(const Rect& box) {
     uint32_t rgba = 0;
-    ClearCommand command;
-    command.color = command.scissor_test = true;
-    command.color_value = any_color(rgba);
-    command.scissor = box;
-    canvas_.device().clear(command);
+    canvas_.device().clear(clear_of(box, any_color(rgba)));
     paint(box, rgba);
   }
   void draw(const Rect& box) {
@@ -115,6 +119,28 @@ TEST(ReadBack, FinishShowsWhatWasDrawn) {
         ASSERT_EQ(out[line * row + x], drawn) << "seed " << seed << " at " << x << ", " << y;
       }
     }
+  }
+}
+
+// A row of tiles wider than are written at once, whose blocks are cleared and written to in turn.
+TEST(ReadBack, WideRowsChangeAtEachBlock) {
+  constexpr int kWide = 4500, kRows = 20;
+  for (const std::string& isa : isa_levels()) {
+    const IsaScope scope(isa);
+    Canvas canvas(kWide, kRows);
+    const auto color = [](int block) { return Color{float(block % 256) / 255, float(block / 256) / 255, 0.2f, 1}; };
+    for (int x = 0, block = 0; x < kWide; x += 8, ++block) {
+      // A clear that leaves out a row is written to memory.
+      canvas.device().clear(clear_of({x, block % 2, x + 8, kRows}, color(block)));
+    }
+    std::vector<uint32_t> out(size_t{kWide} * kRows);
+    canvas.device().read_color({0, 0, kWide, kRows}, reinterpret_cast<uint8_t*>(out.data()), kBackPlane);
+    for (int y = 1; y < kRows; ++y)
+      for (int x = 0; x < kWide; ++x) {
+        const int block = x / 8;
+        ASSERT_EQ(out[size_t(y) * kWide + size_t(x)], 0xff330000u + uint32_t(block % 256) + uint32_t(block / 256) * 256)
+            << isa << " at " << x << ", " << y;
+      }
   }
 }
 
