@@ -50,8 +50,9 @@ Primitive3 random_primitive(Random& random) {
   return p;
 }
 
-// Long and thin, with slopes so great that what they add up to over the length leaves few of a float's bits: here the
-// colours' own bound has to choose, since 1/w is near enough. Of which side the third corner lies is left to chance.
+// Long and thin, with slopes so great that what they add up to over the length leaves few of a float's bits:
+// here the colours' own bound has to choose, since 1/w is near enough. Of which side the third corner lies is
+// left to chance.
 Primitive3 random_sliver(Random& random) {
   Primitive3 p;
   p.step = 1;
@@ -73,7 +74,8 @@ Primitive3 random_sliver(Random& random) {
   return p;
 }
 
-// Calls check(x, y) for pixels the triangle covers, every `step`-th of a window of kSize pixels around its middle.
+// Calls check(x, y) for pixels the triangle covers, every `step`-th of a window of kSize pixels around its
+// middle.
 template <typename Check>
 void for_covered(const oracle::Triangle& triangle, const Rect& window, int step, const Check& check) {
   for (int y = window.y0; y < window.y1; y += step) {
