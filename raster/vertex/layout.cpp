@@ -10,14 +10,27 @@ const unsigned char* element(const AttributeStream& stream, uint32_t i) {
   return static_cast<const unsigned char*>(stream.data) + size_t(i) * stream.stride;
 }
 
-// Compares bits: two NaNs or zeros that differ only cost an interpolation.
-bool is_constant(const AttributeStream& stream, uint32_t count) {
-  if (!stream.data || stream.stride == 0) return true;
-  const size_t bytes = size_t(stream.size) * (stream.bytes ? 1 : sizeof(float));
+// `bytes` known when it is compiled: then no element costs a call.
+template <size_t bytes>
+bool is_repeated(const AttributeStream& stream, uint32_t count) {
   for (uint32_t i = 1; i < count; ++i) {
     if (std::memcmp(element(stream, 0), element(stream, i), bytes) != 0) return false;
   }
   return true;
+}
+
+// Compares bits: two NaNs or zeros that differ only cost an interpolation.
+bool is_constant(const AttributeStream& stream, uint32_t count) {
+  if (!stream.data || stream.stride == 0) return true;
+  switch (size_t(stream.size) * (stream.bytes ? 1 : sizeof(float))) {
+    case 1: return is_repeated<1>(stream, count);
+    case 2: return is_repeated<2>(stream, count);
+    case 3: return is_repeated<3>(stream, count);
+    case 4: return is_repeated<4>(stream, count);
+    case 8: return is_repeated<8>(stream, count);
+    case 12: return is_repeated<12>(stream, count);
+    default: return is_repeated<16>(stream, count);
+  }
 }
 
 float clamp01(float v) {
