@@ -15,11 +15,22 @@ namespace {
 constexpr uint32_t kFirstBatchVertices = 1020;
 static_assert(kFirstBatchVertices % 12 == 0 && kMaxBatchVertices % 12 == 0);
 
+size_t capacity_of(const ImmediateState& im) {
+  return std::min<size_t>(im.buffer.size() / kMaxVertexFloats, im.longest);
+}
+
 // Points the cursor behind `count` vertices at the start of the buffer.
 void set_cursor(ImmediateState& im, uint32_t count) {
-  const size_t capacity = std::min<size_t>(im.buffer.size() / kMaxVertexFloats, im.longest);
+  const size_t capacity = capacity_of(im);
   im.cursor = im.buffer.data() + size_t(count) * im.format.floats;
   im.limit = im.buffer.data() + capacity * im.format.floats;
+  im.most_given = uint32_t(capacity);
+  if (im.shared.given() == capacity) im.limit = im.cursor;
+}
+
+// How many vertices the primitives have that are gathered.
+uint32_t given_count(const ImmediateState& im) {
+  return im.shared.active() ? im.shared.given() : im.vertex_count();
 }
 
 // Room for what is gathered aside, as much as the buffer has.
@@ -27,6 +38,7 @@ void size_side_arrays(ImmediateState& im) {
   const size_t capacity = im.buffer.size() / kMaxVertexFloats;
   if (im.format.edge_flag && im.edge_flags.size() < capacity) im.edge_flags.resize(capacity);
   if (!im.materials.empty() && im.material_index.size() < capacity) im.material_index.resize(capacity);
+  if (im.shared.active()) im.shared.reserve(capacity);
 }
 
 float* vertex_at(ImmediateState& im, uint32_t i) { return im.buffer.data() + size_t(i) * im.format.floats; }
@@ -41,6 +53,10 @@ void draw_gathered(Context& context, GLenum mode, uint32_t count) {
   packet.primitive = primitive_of(mode);
   packet.continues = im.strip_goes_on;
   packet.index_count = packet.batch.count = count;
+  if (im.shared.active()) {
+    packet.indices = im.shared.indices();
+    packet.batch.count = im.shared.distinct();
+  }
   packet.batch.position = {v, stride, 4};
   packet.batch.color = {v + 4, im.color_varies ? stride : 0, 4};
   if (im.format.tex_coord) packet.batch.tex_coord = {v + im.format.tex_coord, stride, 4};
@@ -50,7 +66,14 @@ void draw_gathered(Context& context, GLenum mode, uint32_t count) {
     packet.batch.material_index = im.material_index.data();
     packet.materials = im.materials;
   }
+  im.shared.note_drawn(count);
   submit(context, packet);
+}
+
+// Of points, lines and strips few vertices come again, and edge flags and materials are kept vertex by
+// vertex.
+bool may_share(const ImmediateState& im) {
+  return (im.mode == GL_TRIANGLES || im.mode == GL_QUADS) && !im.format.rare;
 }
 
 // What of a full batch the next one begins with, so that the drawing goes on as if it had not been parted:
@@ -107,7 +130,7 @@ void trim_materials(ImmediateState& im, uint32_t kept) {
 // Draws a full batch, and moves what the next one needs to the buffer's start.
 void part_batch(Context& context) {
   ImmediateState& im = context.immediate;
-  const uint32_t count = im.vertex_count();
+  const uint32_t count = given_count(im);
   const Kept kept = kept_vertices(im.mode);
   remember_loop_start(im);
   draw_gathered(context, batch_mode(im), count);
@@ -118,6 +141,8 @@ void part_batch(Context& context) {
     trim_materials(im, kept.first + kept.last);
   }
   im.strip_goes_on = im.mode == GL_LINE_STRIP || im.mode == GL_LINE_LOOP;
+  im.shared.start(may_share(im));
+  size_side_arrays(im);
   set_cursor(im, kept.first + kept.last);
 }
 
@@ -162,6 +187,7 @@ void start_batch(Context& context, GLenum mode) {
   im.longest = may_part(context, mode, im.format) ? kMaxBatchVertices : kMaxWholeVertices;
   im.color_varies = im.loop_parted = im.strip_goes_on = false;
   im.materials.clear();
+  im.shared.start(may_share(im));
   size_side_arrays(im);
 }
 
@@ -174,11 +200,17 @@ void close_loop(Context& context) {
   im.cursor += im.format.floats;
 }
 
-// Kept out of op::vertex, whose common path is short.
+// Kept out of op::vertex, whose common path is short: what else the last vertex has.
 [[gnu::noinline]] void gather_rare(Context& context) {
   ImmediateState& im = context.immediate;
-  if (im.format.edge_flag) im.edge_flags[im.vertex_count()] = context.current.edge_flag;
-  if (!im.materials.empty()) im.material_index[im.vertex_count()] = uint32_t(im.materials.size() - 1);
+  const uint32_t last = im.vertex_count() - 1;
+  if (im.format.edge_flag) im.edge_flags[last] = context.current.edge_flag;
+  if (!im.materials.empty()) im.material_index[last] = uint32_t(im.materials.size() - 1);
+}
+
+// Likewise.
+[[gnu::noinline]] void vertex_without_room(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
+  if (make_room(context)) op::vertex(context, x, y, z, w);
 }
 
 }  // namespace
@@ -192,7 +224,7 @@ VertexFormat vertex_format(const Context& context, GLenum mode) {
   }
   if (needs.normal) {
     format.normal = format.floats;
-    format.floats += 3;
+    format.floats += 4;
   }
   format.edge_flag = needs.edge_flag;
   format.rare = needs.edge_flag;
@@ -208,6 +240,7 @@ void gather_material(Context& context, const raster::MaterialPair& pair) {
     size_side_arrays(im);
     std::fill_n(im.material_index.begin(), count, 0u);
     im.format.rare = true;
+    im.shared.find_no_more();
   }
   // A pair no vertex has is replaced.
   const bool used =
@@ -241,7 +274,8 @@ void begin(Context& context, GLenum mode) try {
   const bool goes_on = im.waiting && im.mode == mode && im.state == derive(context);
   if (!goes_on) start_batch(context, mode);
   im.inside = true;
-  set_cursor(im, std::exchange(im.waiting, 0));
+  const uint32_t waiting = std::exchange(im.waiting, 0);
+  set_cursor(im, im.shared.active() ? im.shared.distinct() : waiting);
   set_table(context, kInsideBeginEndTable);
 } catch (const std::bad_alloc&) {
   record_error(context, GL_OUT_OF_MEMORY, "begin");
@@ -251,12 +285,13 @@ void end(Context& context) {
   ImmediateState& im = context.immediate;
   if (!im.inside) return record_error(context, GL_INVALID_OPERATION);
   close_loop(context);
-  const uint32_t count = im.vertex_count();
+  const uint32_t count = given_count(im);
   im.inside = false;
   im.cursor = im.limit = nullptr;
   set_table(context, kExecuteTable);
   if (const uint32_t n = raster::separate_vertices(primitive_of(im.mode))) {
     im.waiting = count - count % n;  // an unfinished primitive is dropped (spec 2.6.1)
+    im.shared.truncate(im.waiting);
   } else {
     draw_gathered(context, batch_mode(im), count);
   }
@@ -264,20 +299,20 @@ void end(Context& context) {
 
 void vertex(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
   ImmediateState& im = context.immediate;
-  if (im.cursor == im.limit) [[unlikely]] {
-    if (!make_room(context)) return;
-  }
-  float* v = im.cursor;
-  v[0] = x;
-  v[1] = y;
-  v[2] = z;
-  v[3] = w;
-  std::memcpy(v + 4, context.current.color, 4 * sizeof(float));
-  if (im.format.tex_coord) std::memcpy(v + 8, context.current.tex_coord, 4 * sizeof(float));
-  if (im.format.normal) std::memcpy(v + im.format.normal, context.current.normal, 3 * sizeof(float));
+  float* const v = im.cursor;
+  if (v == im.limit) [[unlikely]]
+    return vertex_without_room(context, x, y, z, w);
+  const Quad position{x, y, z, w};
+  store_quad(position, v);
+  store_quad(load_quad(context.current.color), v + 4);
+  if (im.format.tex_coord) store_quad(load_quad(context.current.tex_coord), v + 8);
+  if (im.format.normal) store_quad(load_quad(context.current.normal), v + im.format.normal);
+  if (!im.shared.active() || im.shared.add(position, v, im.buffer.data(), im.format.floats))
+    im.cursor = v + im.format.floats;
+  if (im.shared.given() == im.most_given) [[unlikely]]
+    im.limit = im.cursor;
   if (im.format.rare) [[unlikely]]
     gather_rare(context);
-  im.cursor = v + im.format.floats;
 }
 
 // Spec 2.11: a polygon of these four vertices; as a quad it joins its neighbours.

@@ -1,5 +1,7 @@
 // What Begin/End hands to the device: attributes, batching, and that a primitive too long for one batch is
 // drawn in parts that together are the whole.
+#include <cmath>
+
 #include "recording_device.h"
 #include "state_fixture.h"
 
@@ -154,7 +156,6 @@ TEST_F(ImmediateTest, AColourThatNeverChangesIsConstant) {
   op::begin(*context, GL_TRIANGLES);
   op::color(*context, 1, 0.5f, 0, 1);  // before the first vertex
   for (int i = 0; i < 3; ++i) {
-    op::color(*context, 1, 0.5f, 0, 1);  // again, and the same
     op::vertex(*context, float(i), 0, 0, 1);
   }
   end();
@@ -390,6 +391,123 @@ TEST_F(ImmediateTest, WaitingBatchesPartWithoutASeamToo) {
   op::flush(*context);
   EXPECT_EQ(batch_sizes(), (std::vector<size_t>{kMaxBatchVertices, 300}));
   EXPECT_EQ(recorded_draws[1].vertices[0].position[0], float(kMaxBatchVertices / 3));
+}
+
+// A mesh of cells, each two triangles or a quad, as most programs give it: cell by cell.
+std::vector<Corner> cells(size_t columns, size_t rows, GLenum mode) {
+  const std::vector<std::pair<size_t, size_t>> kTriangles{{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+  const std::vector<std::pair<size_t, size_t>> kQuad{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  std::vector<Corner> corners;
+  for (size_t row = 0; row < rows; ++row)
+    for (size_t column = 0; column < columns; ++column)
+      for (auto [x, y] : mode == GL_QUADS ? kQuad : kTriangles) {
+        Corner corner;
+        corner.position = {float(column + x), float(row + y), 0.5f, 1};
+        corner.color = {float(column + x), 0, 0, 1};
+        corner.tex_coord = {0, float(row + y), 0, 1};
+        corners.push_back(corner);
+      }
+  return corners;
+}
+
+TEST_F(ImmediateTest, AMeshsVerticesArriveOnce) {
+  op::enable(*context, GL_TEXTURE_2D);
+  for (GLenum mode : {GL_TRIANGLES, GL_QUADS}) {
+    recorded_draws.clear();
+    const auto corners = cells(20, 10, mode);
+    op::begin(*context, mode);
+    feed(corners);
+    end();
+    ASSERT_EQ(recorded_draws.size(), 1u);
+    EXPECT_EQ(recorded_draws[0].vertices, corners);
+    // A few may be missed, whose hashes are others' too.
+    EXPECT_GE(recorded_draws[0].batch_count, 21 * 11u);
+    EXPECT_LE(recorded_draws[0].batch_count, 21 * 11u + 20);
+  }
+}
+
+// Of a batch that goes on, and is parted, and whose pairs end with unfinished triangles.
+TEST_F(ImmediateTest, AMeshInPiecesIsWhole) {
+  op::enable(*context, GL_TEXTURE_2D);
+  const auto corners = cells(300, 80, GL_TRIANGLES);
+  ASSERT_GT(corners.size(), 2 * kMaxBatchVertices);
+  for (size_t each : {size_t{12}, size_t{300}, corners.size()}) {
+    recorded_draws.clear();
+    for (size_t first = 0; first < corners.size(); first += each) {
+      const size_t count = std::min(each, corners.size() - first);
+      op::begin(*context, GL_TRIANGLES);
+      feed({corners.begin() + ptrdiff_t(first), corners.begin() + ptrdiff_t(first + count)});
+      feed({corners[0], corners[1]});
+      op::end(*context);
+    }
+    op::flush(*context);
+    EXPECT_GT(recorded_draws.size(), 2u);
+    for (const RecordedDraw& draw : recorded_draws) {
+      EXPECT_LE(draw.vertices.size(), kMaxBatchVertices);
+      EXPECT_LE(draw.batch_count, draw.vertices.size() / 2);
+    }
+    EXPECT_TRUE(decompose_recorded() == decompose(GL_TRIANGLES, corners)) << each;
+  }
+}
+
+// Of two vertices that differ in one number, or in its sign alone, each is drawn as it is.
+TEST_F(ImmediateTest, VerticesThatDifferAreNotShared) {
+  op::enable(*context, GL_TEXTURE_2D);
+  op::enable(*context, GL_LIGHTING);
+  op::begin(*context, GL_TRIANGLES);
+  const auto corner = [&](int changed) {
+    const auto number = [&](int i) { return i == changed ? -0.0f : 0.0f; };
+    op::color(*context, number(4), number(5), number(6), number(7));
+    op::tex_coord(*context, number(8), number(9), number(10), number(11));
+    op::normal(*context, number(12), number(13), number(14));
+    op::vertex(*context, number(0), number(1), number(2), number(3));
+  };
+  for (int changed = 0; changed < 15; ++changed)
+    for (int i : {-1, changed, -1}) corner(i);
+  end();
+  ASSERT_EQ(recorded_draws.size(), 1u);
+  EXPECT_GE(recorded_draws[0].batch_count, 16u);
+  for (int changed = 0; changed < 15; ++changed) {
+    const Corner& v = recorded_draws[0].vertices[size_t(3 * changed + 1)];
+    for (int i = 0; i < 15; ++i) {
+      const auto& quad = i < 4 ? v.position : i < 8 ? v.color : i < 12 ? v.tex_coord : v.normal;
+      EXPECT_EQ(std::signbit(quad[size_t(i % 4)]), i == changed) << changed << ' ' << i;
+    }
+  }
+}
+
+TEST_F(ImmediateTest, VerticesOfSeveralMaterialsAreNotShared) {
+  op::enable(*context, GL_LIGHTING);
+  set_shininess(*context, 1);
+  op::begin(*context, GL_TRIANGLES);
+  for (int i = 0; i < 12; ++i) {
+    if (i % 3 == 0 && i >= 6) set_shininess(*context, float(i));
+    op::vertex(*context, float(i % 3), 0, 0, 1);
+  }
+  end();
+  const float expected[] = {1, 1, 1, 1, 1, 1, 6, 6, 6, 9, 9, 9};
+  ASSERT_EQ(recorded_draws.size(), 1u);
+  EXPECT_EQ(recorded_draws[0].batch_count, 9u);
+  for (size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(recorded_draws[0].vertices[i].position[0], float(i % 3));
+    EXPECT_EQ(recorded_draws[0].vertices[i].material.shininess, expected[i]);
+  }
+}
+
+// Where nothing comes again nobody looks for it, until some thousand vertices later.
+TEST_F(ImmediateTest, VerticesAreSharedWhereThatPays) {
+  const auto draw = [&](bool again) {
+    recorded_draws.clear();
+    op::begin(*context, GL_TRIANGLES);
+    for (int i = 0; i < 3000; ++i) op::vertex(*context, float(again ? i % 3 : i), 0, 0, 1);
+    end();
+    return recorded_draws[0].batch_count;
+  };
+  EXPECT_EQ(draw(true), 3u);
+  EXPECT_EQ(draw(false), 3000u);
+  EXPECT_EQ(draw(true), 3000u);
+  for (int i = 0; i < 6; ++i) draw(true);
+  EXPECT_EQ(draw(true), 3u);
 }
 
 TEST_F(ImmediateTest, ReadingAndReleasingEndTheWait) {

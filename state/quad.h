@@ -1,0 +1,20 @@
+// Four floats in a register. What is stored in parts and read whole has to wait for the cache, and compilers
+// take arrays apart: so a vertex's values move by fours, from the calls that set them to where vertices are
+// gathered.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+namespace halfspace::state {
+
+using Quad [[gnu::vector_size(16)]] = float;
+
+inline Quad load_quad(const float* v) {
+  Quad quad;
+  std::memcpy(&quad, v, sizeof quad);
+  return quad;
+}
+inline void store_quad(Quad quad, float* v) { std::memcpy(v, &quad, sizeof quad); }
+
+}  // namespace halfspace::state
