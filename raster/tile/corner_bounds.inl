@@ -2,31 +2,52 @@
 
 // A second look at primitives that the bounds of PlaneMaker take for too large for floats: the same roundings, but at
 // each corner against 1/w at that very corner. A bound is largest at a corner, since it is convex and 1/w linear.
+inline constexpr double kLeastNormal = 0x1p-100;  // 1/w of which floats are normal numbers
+
 struct CornerBounds {
   VD x[3], y[3], spread[3];  // of each snapped corner: the way from the anchor, pixels; w, 1 where it is constant
   VD w_error;                // of 1/w in float, in parts of it
   hn::Mask<DD> fails;
 
-  HWY_INLINE CornerBounds(const CornerVectors& v, const PlaneMaker& maker, int i, const SetupBatch& out) {
+  // at_x, at_y: x and y; `affine`: where w is constant, as planes are made.
+  HWY_INLINE CornerBounds(const VD at_x[3], const VD at_y[3], hn::Mask<DD> affine, int i, const SetupBatch& out) {
     const DD d;
-    const VD one = hn::Set(d, 1.0), pixel = hn::Set(d, 1.0 / kSubpixelScale);
+    const VD one = hn::Set(d, 1.0);
     hn::Mask<DD> normal = hn::Eq(one, one);
-    for (int k = 0; k < 3; ++k) {
-      x[k] = hn::Mul(hn::Sub(v.x[k], v.x[0]), pixel);
-      y[k] = hn::Mul(hn::Sub(v.y[k], v.y[0]), pixel);
-      spread[k] = one;
-    }
+    for (int k = 0; k < 3; ++k) x[k] = at_x[k], y[k] = at_y[k], spread[k] = one;
     for (int k = 0; k < 3; ++k) {
       const VD inv_w = Largest(1, k, i, out).value;
-      normal = hn::And(normal, hn::Ge(inv_w, hn::Set(d, 0x1p-100)));
-      spread[k] = hn::Div(one, hn::IfThenElse(maker.affine, one, inv_w));
+      normal = hn::And(normal, hn::Ge(inv_w, hn::Set(d, kLeastNormal)));
+      spread[k] = hn::Div(one, hn::IfThenElse(affine, one, inv_w));
     }
     w_error = hn::Zero(d);
     for (int k = 0; k < 3; ++k) w_error = hn::Max(w_error, Largest(1, k, i, out).error);
-    w_error = hn::IfThenZeroElse(maker.affine, w_error);
+    w_error = hn::IfThenZeroElse(affine, w_error);
     const auto near = hn::And(normal, hn::Le(w_error, hn::Set(d, 1.0 / 256)));
-    fails = hn::Not(hn::Or(maker.affine, near));
+    fails = hn::Not(hn::Or(affine, near));
   }
+
+  // All planes but depth.
+  HWY_INLINE void CheckAttributes(const VertexLayout& layout, const FragmentParams& params, hn::Mask<DD> affine, int i,
+                                  const SetupBatch& out) {
+    const DD d;
+    const VD nowhere = hn::Zero(d);
+    for (int k = 0; layout.color >= 0 && k < 4; ++k)
+      Check(2 + layout.color + k, hn::Set(d, kCloseLook * kColorTolerance), nowhere, i, out);
+    if (layout.tex_coord >= 0) {
+      // Down to a level of one texel, and by each pixel's own lambda.
+      const LevelRef& last = params.levels[params.level_count - 1];
+      const bool mips = params.level_count > 1 && last.width_i == 1 && last.height_i == 1 && !params.one_lambda;
+      const VD reach = mips ? ReachOfMips(layout, params, affine, i, out) : nowhere;
+      const double size[2] = {static_cast<double>(params.levels[0].width), static_cast<double>(params.levels[0].height)};
+      for (int axis = 0; axis < 2; ++axis)
+        Check(2 + layout.tex_coord + axis, hn::Set(d, kCloseLook * kTexelTolerance / size[axis]), reach, i, out);
+    }
+    if (layout.fog >= 0)
+      Check(2 + layout.fog, hn::Set(d, kCloseLook * kColorTolerance * params.fog.level_span), nowhere, i, out);
+  }
+
+ private:
 
   // The tolerance holds everywhere, or `reach` times as much does by way of 1/w: error / w <= reach * tolerance.
   HWY_INLINE void Check(int plane, VD tolerance, VD reach, int i, const SetupBatch& out) {
@@ -67,7 +88,6 @@ struct CornerBounds {
     return hn::Sqrt(hn::Mul(hn::Sqrt(squared), hn::Set(d, 1 / 2.05)));
   }
 
- private:
   // The least square of first + step * at, a vector of two, for `at` within the range of three values.
   static HWY_INLINE VD LeastSquare(const VD first[2], const VD step[2], const VD at[3]) {
     const DD d;
@@ -98,21 +118,13 @@ struct CornerBounds {
 
 HWY_NOINLINE void LookCloser(const VertexLayout& layout, const FragmentParams& params, const CornerVectors& v, int i,
                              const SetupBatch& out, PlaneMaker& maker) {
-  const DD d;
-  CornerBounds bounds(v, maker, i, out);
-  const VD nowhere = hn::Zero(d);
-  for (int k = 0; layout.color >= 0 && k < 4; ++k)
-    bounds.Check(2 + layout.color + k, hn::Set(d, kCloseLook * kColorTolerance), nowhere, i, out);
-  if (layout.tex_coord >= 0) {
-    // Down to a level of one texel, and by each pixel's own lambda.
-    const LevelRef& last = params.levels[params.level_count - 1];
-    const bool mips = params.level_count > 1 && last.width_i == 1 && last.height_i == 1 && !params.one_lambda;
-    const VD reach = mips ? bounds.ReachOfMips(layout, params, maker.affine, i, out) : nowhere;
-    const double size[2] = {static_cast<double>(params.levels[0].width), static_cast<double>(params.levels[0].height)};
-    for (int axis = 0; axis < 2; ++axis)
-      bounds.Check(2 + layout.tex_coord + axis, hn::Set(d, kCloseLook * kTexelTolerance / size[axis]), reach, i, out);
+  const VD pixel = hn::Set(DD(), 1.0 / kSubpixelScale);
+  VD x[3], y[3];
+  for (int k = 0; k < 3; ++k) {
+    x[k] = hn::Mul(hn::Sub(v.x[k], v.x[0]), pixel);
+    y[k] = hn::Mul(hn::Sub(v.y[k], v.y[0]), pixel);
   }
-  if (layout.fog >= 0)
-    bounds.Check(2 + layout.fog, hn::Set(d, kCloseLook * kColorTolerance * params.fog.level_span), nowhere, i, out);
+  CornerBounds bounds(x, y, maker.affine, i, out);
+  bounds.CheckAttributes(layout, params, maker.affine, i, out);
   maker.needs_double = hn::And(maker.needs_double, bounds.fails);
 }

@@ -243,9 +243,9 @@ struct PlaneMaker {
   }
 };
 
-// REPEAT: whole turns come off before anything becomes float, so that what is left lies around 0. All lanes take part;
-// others' Wrap leaves values alone. `mips`: there lies what is near the eye, since what is far is looked up in large texels.
-HWY_INLINE void TakeWholeTurns(const VD inv_w[3], bool mips, VD value[3]) {
+// REPEAT: the whole turns that come off before anything becomes float, so that what is left lies around 0. `mips`: there
+// lies what is near the eye, since what is far is looked up in large texels.
+HWY_INLINE VD WholeTurns(const VD inv_w[3], bool mips, const VD value[3]) {
   const DD d;
   const VD least = hn::Min(hn::Min(value[0], value[1]), value[2]);
   const VD most = hn::Max(hn::Max(value[0], value[1]), value[2]);
@@ -259,11 +259,11 @@ HWY_INLINE void TakeWholeTurns(const VD inv_w[3], bool mips, VD value[3]) {
     }
     middle = hn::Div(sum, weights);
   }
-  const VD turns = hn::Floor(middle);
-  for (int k = 0; k < 3; ++k) value[k] = hn::Sub(value[k], turns);
+  return hn::Floor(middle);
 }
 
 #include "raster/tile/corner_bounds.inl"
+#include "raster/tile/cut_planes.inl"
 
 // The accuracy axes' say in which planes a primitive is interpolated by.
 HWY_NOINLINE void ApplyPlaneRule(const FragmentParams& params, PlaneMaker& maker) {
@@ -310,7 +310,10 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
     const Wrap wrap[3] = {params.sampler.wrap_s, params.sampler.wrap_t, Wrap::clamp};
     for (int a = 0; a < (layout.projective ? 3 : 2); ++a) {
       for (int k = 0; k < 3; ++k) value[k] = LoadAttribute(in, layout, layout.tex_coord + a, k, i);
-      if (!layout.projective && wrap[a] == Wrap::repeat) TakeWholeTurns(maker.inv_w, params.level_count > 1, value);
+      if (!layout.projective && wrap[a] == Wrap::repeat) {
+        const VD turns = WholeTurns(maker.inv_w, params.level_count > 1, value);
+        for (VD& corner : value) corner = hn::Sub(corner, turns);
+      }
       maker.StoreAttribute(value, 2 + layout.tex_coord + a, i, layout.projective,
                            hn::Set(d, kTexelTolerance / size[a]), out);
     }
@@ -329,24 +332,6 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
   alignas(64) int32_t variant[kSetupLanes];
   StoreInt(bits, variant);
   for (int k = 0; k < kDoubleLanes; ++k) out.variant[i + k] = static_cast<uint8_t>(variant[k]);
-}
-
-// A cut triangle or line: its planes are those of the whole primitive, already there; always in double.
-HWY_INLINE void CopyPlanes(const Segment& segment, const CutTriangle& cut, const VertexLayout& layout,
-                           int lane, int32_t center_x, int32_t center_y, SetupBatch& out) {
-  const PlaneSource& source = segment.plane_sources.data()[cut.source];
-  for (int p = 0; p < 2 + layout.attribute_count; ++p) {
-    const bool color = layout.color >= 0 && p >= 2 + layout.color && p < 6 + layout.color;
-    const double scale = p == 0 ? kDepthScale : (color ? 255.0 : 1.0);
-    out.f0[p][lane] = source.planes[p].f0 * scale + (p == 0 ? 0.5 : 0.0);
-    out.dfdx[p][lane] = source.planes[p].dfdx * scale;
-    out.dfdy[p][lane] = source.planes[p].dfdy * scale;
-  }
-  out.variant[lane] = kDouble;
-  out.anchor_x[lane] = (center_x - source.x0) * (1.0 / kSubpixelScale);
-  out.anchor_y[lane] = (center_y - source.y0) * (1.0 / kSubpixelScale);
-  out.anchor_x_f[lane] = static_cast<float>(out.anchor_x[lane]);
-  out.anchor_y_f[lane] = static_cast<float>(out.anchor_y[lane]);
 }
 
 HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, const PrimitiveRef& ref,
@@ -427,15 +412,16 @@ HWY_NOINLINE void FinishLanes(const Segment& segment, const DrawRecord& draw, co
   const VertexLayout& layout = draw.vertices.layout;
   const FragmentParams& params = draw.program->params;
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
+  CutPlanes cut(segment, layout, center_x, center_y);
   for (int lane = 0; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    if (ref.cut)
-      CopyPlanes(segment, segment.cut_triangles.data()[ref.v[0]], layout, lane, center_x, center_y, out);
+    if (ref.cut) cut.Copy(ref, lane, out);
     if (flat) SetFlatColor(segment, draw, ref, lane, out);
     if (params.one_lambda) out.lambda[lane] = LambdaOf(in, params, layout, lane, center_x, center_y, out);
     if (draw.shape.offset_fill && ref.kind <= PrimitiveKind::smooth_triangle)
       OffsetDepth(draw.state->polygon, lane, out);
   }
+  cut.Judge(params, out);
 }
 
 HWY_INLINE void SetAnchor(const CornerVectors& v, int i, VD center_x, VD center_y, SetupBatch& out) {

@@ -211,24 +211,40 @@ TEST(PrecisionOnDemand, CoordinatesAreNeverFartherOffThanDerived) {
   EXPECT_GT(doubles, 10u);
 }
 
-// On mip levels coordinates are as near in texels of the level looked up. Level and filter are exact, so that only
-// coordinates differ from those in double.
-TEST(PrecisionOnDemand, CoordinatesAreAsNearOnTheLevelLookedUp) {
-  constexpr int kTextureSize = 256;
-  constexpr double kStep = 255 * kTexelBound;  // levels, along either axis
-  Random random(78);
-  TestTexture texture;
-  for (int size = kTextureSize; size > 0; size /= 2) texture.add_noise(random, size, size);
-  const auto view = texture.view(sampler_of(Filter::linear, Wrap::repeat, MipMode::linear));
+// With the eye in between: the near plane lies at w = near, so that what has a corner before it is cut.
+Primitive3 random_cut_primitive(Random& random) {
+  Primitive3 p;
+  const float scale = random.integer(0, 19) == 0 ? float(std::pow(10.0, double(random.real(-20, 25)))) : 1;
+  const float near = scale * float(std::pow(10.0, double(random.real(-3, 0))));
+  const float reach = random.integer(0, 1) == 0 ? 1 : float(std::pow(2.0, double(random.real(-4, 3))));
+  const auto in_front = size_t(random.integer(0, 2));
+  for (size_t i = 0; i < 3; ++i) {
+    Vertex& v = p.vertices[i];
+    v.w = i == in_front ? near * random.real(-3, 1) : scale * random.real(0, 1) + near;
+    const float size = std::max(std::fabs(v.w), near) * reach;
+    v.x = size * random.real(-1, 1);
+    v.y = size * random.real(-1, 1);
+    v.z = v.w - 2 * near;
+  }
+  return p;
+}
+
+// Drawn at the standard level, with all but its planes and the divide by w exact, and all exact: the largest difference,
+// in levels: of colours, or of the view's texels.
+Count compare_with_exact(uint64_t seed, const std::shared_ptr<const TextureView>& view, bool cut) {
+  Random random(seed);
+  Count result;
   Canvas canvas(kSize, kSize, 1, ColorFormat::rgba32f);
   std::vector<float> pixels(kSize * kSize * 4), exact(kSize * kSize * 4);
-  uint64_t floats = 0, doubles = 0;
-  double worst = 0;
   for (int n = 0; n < primitives(); ++n) {
     const int viewport = n % 3 == 0 ? 64 : n % 3 == 1 ? 512 : 8192;
-    Primitive3 p = random_primitive(random);
+    Primitive3 p = cut ? random_cut_primitive(random) : random_primitive(random);
     const float turns = float(std::pow(10.0, double(random.real(-2, 3))));
-    for (Vertex& v : p.vertices) v.s = random.real(0, turns), v.t = random.real(0, turns);
+    const float most = random.integer(0, 1) == 0 ? 1 : float(std::pow(10.0, double(random.real(-7, -1))));
+    for (Vertex& v : p.vertices) {
+      v.s = random.real(0, turns), v.t = random.real(0, turns);
+      if (view == nullptr) v.color = {random.real(0, most), random.real(0, most), random.real(0, most), random.real(0, most)};
+    }
     DrawState state = plain_state(viewport, viewport);
     state.texture.view = view;
     state.texture.env = EnvMode::replace;
@@ -238,19 +254,52 @@ TEST(PrecisionOnDemand, CoordinatesAreAsNearOnTheLevelLookedUp) {
     canvas.draw(state, Primitive::triangles, p.vertices);
     canvas.device().read_color_float({0, 0, kSize, kSize}, exact.data());
     state.accuracy.interpolation = state.accuracy.perspective = Level::standard;
-    const uint64_t before = canvas.device().statistics().double_fragments;
+    const auto before = canvas.device().statistics();
     canvas.clear();
     canvas.draw(state, Primitive::triangles, p.vertices);
     canvas.device().read_color_float({0, 0, kSize, kSize}, pixels.data());
-    ++(canvas.device().statistics().double_fragments != before ? doubles : floats);
+    const auto after = canvas.device().statistics();
+    if (after.fragments == before.fragments) continue;
+    ++result.primitives;
+    if (after.double_fragments != before.double_fragments) ++result.in_double;
     for (size_t i = 0; i < pixels.size(); ++i)
-      worst = std::max(worst, std::fabs(double(pixels[i]) - double(exact[i])) * 255);
+      result.worst = std::max(result.worst, std::fabs(double(pixels[i]) - double(exact[i])) * 255);
   }
-  std::cout << floats << " primitives in float, " << doubles << " in double; largest error " << worst << " levels of "
-            << 2 * kStep << "\n";
-  EXPECT_LE(worst, 2 * kStep + 0.02);
-  EXPECT_GT(floats, doubles / 10);
-  EXPECT_GT(doubles, floats / 100);
+  return result;
+}
+
+void expect_near(const Count& count, double bound) {
+  const uint64_t floats = count.primitives - count.in_double;
+  std::cout << floats << " primitives in float, " << count.in_double << " in double; largest error " << count.worst
+            << " levels of " << bound << "\n";
+  EXPECT_LE(count.worst, bound);
+  EXPECT_GT(floats, count.in_double / 10);
+  EXPECT_GT(count.in_double, floats / 100);
+}
+
+constexpr double kStep = 255 * kTexelBound;  // levels, along either axis
+
+std::shared_ptr<const TextureView> noise_view(TestTexture& texture, int levels) {
+  Random random(78);
+  for (int n = 0; n < levels; ++n) texture.add_noise(random, 256 >> n, 256 >> n);
+  return texture.view(sampler_of(Filter::linear, Wrap::repeat, levels > 1 ? MipMode::linear : MipMode::none));
+}
+
+// On mip levels coordinates are as near in texels of the level looked up. Level and filter are exact, so that only
+// coordinates differ from those in double.
+TEST(PrecisionOnDemand, CoordinatesAreAsNearOnTheLevelLookedUp) {
+  TestTexture texture;
+  expect_near(compare_with_exact(78, noise_view(texture, 9), false), 2 * kStep + 0.02);
+}
+
+TEST(PrecisionOnDemand, ColoursOfCutTrianglesAreAsNear) {
+  expect_near(compare_with_exact(79, nullptr, true), kColorBound + kSlack);
+}
+
+TEST(PrecisionOnDemand, CoordinatesOfCutTrianglesAreAsNear) {
+  TestTexture texture, mips;
+  expect_near(compare_with_exact(80, noise_view(texture, 1), true), 2 * kStep + 0.02);
+  expect_near(compare_with_exact(81, noise_view(mips, 9), true), 2 * kStep + 0.02);
 }
 
 }  // namespace
