@@ -140,6 +140,15 @@ HWY_INLINE VF FillRows(const float* rows) {
 #endif
 }
 
+// A group's columns, the same in each of its rows.
+HWY_INLINE VF RepeatColumns(const float* columns) {
+#if HWY_TARGET == HWY_AVX3
+  return VF{_mm512_castpd_ps(_mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_load_ps(columns))))};
+#else
+  return hn::Load(DF(), columns);
+#endif
+}
+
 struct BlockPlane {
   VF across[kGroupsPerRow];           // dfdx * dx
   alignas(32) float row[kBlockSize];  // f0 + dfdy * dy
@@ -218,6 +227,7 @@ struct BlockLanes {
   static constexpr int kSide = kBlockSize;
   static HWY_INLINE int Row(int i) { return i / kBlockSize; }
   static HWY_INLINE int Column(int i) { return i % kBlockSize; }
+  static HWY_INLINE int FirstRow(const BlockContext&) { return 0; }  // of the row of blocks at hand
   using Plane = BlockPlane;
   using PlaneOfAlpha = Plane;
   using PlaneDouble = BlockPlaneDouble;

@@ -96,9 +96,18 @@ bool has_sizes_of_two(const TextureLevel& level) {
 
 void add_level_lookup(const Accuracy& accuracy, bool projective, StageList& list) {
   using enum StageId;
-  if (accuracy.lod == Level::exact) list.add(projective ? lambda_projective_exact : lambda_exact);
-  else if (accuracy.lod == Level::draft) list.add(lambda_of_primitive);
-  else list.add(projective ? lambda_projective : lambda);
+  StageId& coord = list.ids[static_cast<size_t>(list.count - 1)];
+  const bool in_float = coord == coord_perspective || coord == coord_perspective_and_w;
+  if (accuracy.lod == Level::exact) {
+    list.add(projective ? lambda_projective_exact : lambda_exact);
+  } else if (accuracy.lod == Level::draft) {
+    list.add(lambda_of_primitive);
+  } else if (in_float) {
+    coord = coord_perspective_and_w;
+    list.add(lambda_at_w);
+  } else {
+    list.add(projective ? lambda_projective : lambda);
+  }
   if (accuracy.filter == Level::exact) return list.add(sample_levels_exact);
   list.add(choose_level);
   list.add(accuracy.filter == Level::draft ? sample_levels_draft : sample_levels);

@@ -104,6 +104,9 @@ struct TileLanes : BlockLanes {
   static constexpr int kSide = kTileSize;
   static HWY_INLINE int Row(int i) { return RowInTile(i); }
   static HWY_INLINE int Column(int i) { return ColumnInTile(i); }
+  static HWY_INLINE int FirstRow(const BlockContext& c) {
+    return c.blocks != 0 ? __builtin_ctzll(c.blocks) / kBlocksPerRow * kBlockSize : 0;
+  }
   using Plane = TilePlane;
   using PlaneOfAlpha = std::conditional_t<kLevelAlpha, LevelPlane, TilePlane>;
   using PlaneDouble = TilePlaneDouble;

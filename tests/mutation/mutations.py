@@ -136,6 +136,8 @@ MUTATIONS = [
     Mutation("lambda: the sum of both gradients", STAGES + "lambda.inl",
              "rho2.part[p] = hn::Div(hn::Max(row, columns), hn::Mul(q2, q2))", "rho2.part[p] = hn::Div(hn::Add(row, columns), hn::Mul(q2, q2))",
              "mipmap_test:Mipmap.LambdaWithinASixtyFourth"),
+    Mutation("lambda in float: the shorter gradient", STAGES + "lambda.inl",
+             "hn::Max(FillRows(", "hn::Min(FillRows(", "mipmap_test:Mipmap.LambdaWithinASixtyFourth"),
     Mutation("lambda: half of it is missing", STAGES + "lambda.inl",
              "hn::Mul(hn::Set(d, 0.5f), Log2(rho2))", "Log2(rho2)", "hard_cases:lod_ramp"),
     Mutation("NEAREST mip level: one too high", STAGES + "levels.inl",

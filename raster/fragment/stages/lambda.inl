@@ -1,65 +1,82 @@
 // The level-of-detail parameter lambda (spec 3.8.8): rho from the planes' exact derivatives, the longer gradient.
 
-// log2 of positive finite floats, |error| < 1e-4. The exponent is taken from the bits, the mantissa in [0.75, 1.5)
-// goes through the series of log2((1 + r) / (1 - r)).
+// log2 of positive finite floats, |error| < 1.6e-5. The exponent is taken from the bits; of the mantissa in [0.75, 1.5),
+// less one, a polynomial without a constant, so that powers of two are exact.
 HWY_INLINE VF Log2(VF x) {
   const DF d;
   const DI di;
   const VI bits = hn::BitCast(di, x);
   const VI shifted = hn::Sub(bits, hn::Set(di, 0x3f400000));  // 0.75f
   const VI exponent = hn::ShiftRight<23>(shifted);
-  const VF m = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
-  const VF r = hn::Div(hn::Sub(m, hn::Set(d, 1.0f)), hn::Add(m, hn::Set(d, 1.0f)));
-  const VF r2 = hn::Mul(r, r);
-  // 2/ln2 * (1 + r^2/3 + r^4/5 + r^6/7)
-  VF p = hn::Set(d, 0.41219858f);
-  p = hn::Add(hn::Mul(p, r2), hn::Set(d, 0.57707802f));
-  p = hn::Add(hn::Mul(p, r2), hn::Set(d, 0.96179669f));
-  p = hn::Add(hn::Mul(p, r2), hn::Set(d, 2.88539008f));
-  return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(p, r));
+  const VF t = hn::Sub(hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), hn::Set(d, 1.0f));
+  VF p = hn::Set(d, 0.197522074f);
+  p = hn::Add(hn::Mul(p, t), hn::Set(d, -0.377522558f));
+  p = hn::Add(hn::Mul(p, t), hn::Set(d, 0.491849184f));
+  p = hn::Add(hn::Mul(p, t), hn::Set(d, -0.721219659f));
+  p = hn::Add(hn::Mul(p, t), hn::Set(d, 1.44244754f));
+  return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(p, t));
+}
+HWY_INLINE VF HalfLog2(VF rho2) {
+  const DF d;
+  rho2 = hn::Min(hn::Max(rho2, hn::Set(d, 1e-30f)), hn::Set(d, 1e30f));
+  return hn::Mul(hn::Set(d, 0.5f), Log2(rho2));
 }
 
 // With S and Q planes, d(S/Q)/dx = (dS/dx * Q - S * dQ/dx) / Q^2, and the numerator does not depend on x: it is the same
 // for all pixels of a row, and that of d/dy for all of a column. So rho^2 = max(row's, column's) / Q^4. In double since
 // the differences may cancel.
+template <class L>
+struct Gradients {
+  // Of each row of a row of blocks, of each column: texels squared * Q^4.
+  alignas(64) double along_x[kBlockSize] = {}, along_y[L::kSide] = {};
+
+  // divisor: the plane of Q, or less than 0 where that is 1. `unit`: what texels are counted in.
+  HWY_INLINE Gradients(const BlockContext& c, int divisor, double unit) {
+    for (int axis = 0; axis < 2; ++axis) AddAxis(c, axis, divisor, unit);
+  }
+  static HWY_INLINE int Row(int i) { return L::Row(i) % kBlockSize; }
+  HWY_INLINE double First() const { return along_x[0] > along_y[0] ? along_x[0] : along_y[0]; }
+
+ private:
+  HWY_INLINE void AddAxis(const BlockContext& c, int axis, int divisor, double unit) {
+    const SetupBatch& setup = *c.setup;
+    const int k = c.lane, plane = c.params->tex_plane + axis;
+    const double size = c.params->lod_scale[axis] * unit;
+    const double s = setup.f0[plane][k], sx = setup.dfdx[plane][k], sy = setup.dfdy[plane][k];
+    double q = 1, qx = 0, qy = 0;
+    if (divisor >= 0) q = setup.f0[divisor][k], qx = setup.dfdx[divisor][k], qy = setup.dfdy[divisor][k];
+    const double twist = sx * qy - qx * sy, dy = c.dy + L::FirstRow(c);
+    for (int n = 0; n < kBlockSize; ++n) {
+      const double gx = (sx * q - qx * s + twist * (dy + n)) * size;
+      along_x[n] += gx * gx;
+    }
+    for (int n = 0; n < L::kSide; ++n) {
+      const double gy = (sy * q - qy * s - twist * (c.dx + n)) * size;
+      along_y[n] += gy * gy;
+    }
+  }
+};
+
+// By each pixel's own Q, in double.
 template <bool kProjective>
 struct Lambda {
   static constexpr bool kKills = false, kPacks = false, kInTiles = true;
 
   template <class L>
   struct Once {
-    typename L::PlaneDouble divisor;
-    bool constant;                                                  // the divisor is
-    alignas(64) double along_x[L::kSide], along_y[L::kSide];  // of each row, of each column: texels squared * Q^4
-    VF lambda;                                                      // where the divisor is constant
-    HWY_INLINE explicit Once(const BlockContext& c) : divisor(c, kProjective ? c.params->tex_plane + 2 : 1) {
-      constant = !kProjective && (c.setup->variant[c.lane] & kAffine) != 0;
-      for (int n = 0; n < L::kSide; ++n) along_x[n] = along_y[n] = 0;
-      lambda = hn::Zero(DF());
-      for (int axis = 0; axis < 2; ++axis) AddAxis(c, axis);
-      const double longer = along_x[0] > along_y[0] ? along_x[0] : along_y[0];
-      if (constant) lambda = HalfLog2(hn::Set(DF(), static_cast<float>(longer)));
+    static HWY_INLINE bool IsConstant(const BlockContext& c) {
+      return !kProjective && (c.setup->variant[c.lane] & kAffine) != 0;
     }
+    static HWY_INLINE int Divisor(const BlockContext& c) { return kProjective ? c.params->tex_plane + 2 : 1; }
 
-   private:
-    HWY_INLINE void AddAxis(const BlockContext& c, int axis) {
-      const SetupBatch& setup = *c.setup;
-      const int k = c.lane, plane = c.params->tex_plane + axis;
-      const double size = c.params->lod_scale[axis];
-      const double s = setup.f0[plane][k], sx = setup.dfdx[plane][k], sy = setup.dfdy[plane][k];
-      // q, qx, qy of a constant divisor.
-      double q = 1, qx = 0, qy = 0;
-      if (!constant) {
-        const int d = kProjective ? c.params->tex_plane + 2 : 1;
-        q = setup.f0[d][k], qx = setup.dfdx[d][k], qy = setup.dfdy[d][k];
-      }
-      const double twist = sx * qy - qx * sy;
-      for (int n = 0; n < L::kSide; ++n) {
-        const double gx = (sx * q - qx * s + twist * (c.dy + n)) * size;
-        const double gy = (sy * q - qy * s - twist * (c.dx + n)) * size;
-        along_x[n] += gx * gx;
-        along_y[n] += gy * gy;
-      }
+    typename L::PlaneDouble divisor;
+    bool constant;  // the divisor is
+    Gradients<L> gradients;
+    VF lambda;  // where the divisor is constant
+    HWY_INLINE explicit Once(const BlockContext& c)
+        : divisor(c, Divisor(c)), constant(IsConstant(c)), gradients(c, constant ? -1 : Divisor(c), 1) {
+      lambda = hn::Zero(DF());
+      if (constant) lambda = HalfLog2(hn::Set(DF(), static_cast<float>(gradients.First())));
     }
   };
 
@@ -78,19 +95,56 @@ struct Lambda {
     constexpr int kParts = BlockPlaneDouble::kParts;
     VD rho2 = once.divisor.At(i);
     for (int p = 0; p < kDoubleParts; ++p) {
-      const auto row = hn::Set(DD(), once.along_x[L::Row(i) + p / kParts]);
-      const auto columns = hn::Load(DD(), once.along_y + L::Column(i) + p % kParts * kDoubleLanes);
+      const auto row = hn::Set(DD(), once.gradients.along_x[Gradients<L>::Row(i) + p / kParts]);
+      const auto columns = hn::Load(DD(), once.gradients.along_y + L::Column(i) + p % kParts * kDoubleLanes);
       const auto q2 = hn::Mul(rho2.part[p], rho2.part[p]);
       rho2.part[p] = hn::Div(hn::Max(row, columns), hn::Mul(q2, q2));
     }
     return rho2;
   }
+};
 
- private:
-  static HWY_INLINE VF HalfLog2(VF rho2) {
-    const DF d;
-    rho2 = hn::Min(hn::Max(rho2, hn::Set(d, 1e-30f)), hn::Set(d, 1e30f));
-    return hn::Mul(hn::Set(d, 0.5f), Log2(rho2));
+// Where planes are in float, by way of w, which is there already: lambda = max(row's, column's) + 2 log2(w), with
+// logarithms taken once for a row or a column. 1/w is then within 1/191 of the true one (docs/numerics.md), lambda within
+// 1/66.
+struct LambdaAtW {
+  static constexpr bool kKills = false, kPacks = false, kInTiles = true;
+
+  template <class L>
+  struct Once {
+    alignas(64) float along_x[kLanes < kBlockSize ? kBlockSize : kLanes], along_y[L::kSide < kLanes ? kLanes : L::kSide];
+    HWY_INLINE explicit Once(const BlockContext& c) {
+      // In units of the anchor's w to a power of two, so that floats can hold it.
+      uint64_t bits;
+      __builtin_memcpy(&bits, &c.setup->f0[1][c.lane], sizeof bits);
+      const int exponent = static_cast<int>(bits >> 52 & 2047) - 1023;
+      bits = static_cast<uint64_t>(1023 - 2 * exponent) << 52;
+      double unit;
+      __builtin_memcpy(&unit, &bits, sizeof unit);
+      const Gradients<L> gradients(c, 1, unit);
+      const float rise = static_cast<float>(2 * exponent);
+      TakeLogarithms(gradients.along_x, kBlockSize, rise, along_x);
+      TakeLogarithms(gradients.along_y, L::kSide, rise, along_y);
+    }
+
+   private:
+    // To whole vectors.
+    static HWY_INLINE void TakeLogarithms(const double* squares, int count, float rise, float* out) {
+      const DF d;
+      int n = 0;
+      for (; n < count; ++n) out[n] = static_cast<float>(squares[n]);
+      for (; n % kLanes != 0; ++n) out[n] = 0;
+      for (n = 0; n < count; n += kLanes)
+        hn::Store(hn::Add(HalfLog2(hn::Load(d, out + n)), hn::Set(d, rise)), d, out + n);
+    }
+  };
+
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
+    const VF longer =
+        hn::Max(FillRows(once.along_x + Gradients<L>::Row(i)), RepeatColumns(once.along_y + L::Column(i)));
+    const VF log_w = Log2(v.slot[kW]);
+    v.slot[kLambda] = hn::Add(longer, hn::Add(log_w, log_w));
   }
 };
 
@@ -103,8 +157,7 @@ struct LambdaExact {
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
     alignas(64) double rho2[kMaxLanes];
-    const double constant = once.along_x[0] > once.along_y[0] ? once.along_x[0] : once.along_y[0];
-    StoreWide(once.constant ? SetWide(constant) : Lambda<kProjective>::template SquareOfRho<L>(once, i), rho2);
+    StoreWide(once.constant ? SetWide(once.gradients.First()) : Lambda<kProjective>::template SquareOfRho<L>(once, i), rho2);
     for (int j = 0; j < kLanes; ++j) {
       const double held = rho2[j] > 1e-30 ? (rho2[j] < 1e30 ? rho2[j] : 1e30) : 1e-30;
       rho2[j] = 0.5 * ExactLog2(held);
