@@ -459,36 +459,18 @@ HWY_INLINE void SetUpCorners(const Corners& from, const Segment& segment, const 
   }
 }
 
-// What primitives have in common, as far as set-up asks.
-struct CommonTraits {
-  bool plain = true;  // triangles with vertices of their own, and the colours that come first
-  bool any_cut = false;
-
-  HWY_INLINE CommonTraits(const Segment& segment, const VertexLayout& layout, const uint32_t* ids, int count) {
-    bool triangles = true, back = false;
-    for (int lane = 0; lane < count; ++lane) {
-      const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-      triangles &= ref.kind == PrimitiveKind::triangle;
-      any_cut |= ref.cut;
-      back |= ref.back_facing;
-    }
-    plain = triangles && !any_cut && !(back && layout.back_color >= 0);
-  }
-};
-
 // Fills `out` for the primitives ids[0 .. count) of `segment`, all of one draw. `limit`: the draw's bounds
 // relative to the tile whose lowest pixel is (tile_x, tile_y).
-void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, int count, int tile_x,
-           int tile_y, const Rect& limit, SetupInput& in, SetupBatch& out) {
+void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, const BatchRefs& refs, int count,
+           int tile_x, int tile_y, const Rect& limit, SetupInput& in, SetupBatch& out) {
   const VertexLayout& layout = draw.vertices.layout;
   const size_t stride = layout.stride();
   const int32_t center_x = tile_x * kSubpixelScale + kSubpixelScale / 2;
   const int32_t center_y = tile_y * kSubpixelScale + kSubpixelScale / 2;
-  const CommonTraits traits(segment, layout, ids, count);
 #if HALFSPACE_DIRECT_CORNERS
-  if (HWY_LIKELY(traits.plain)) {
-    const DirectCorners corners(segment, draw.vertices, stride, ids, count);
-    SetUpCorners(corners, segment, draw, ids, count, center_x, center_y, limit, in, out);
+  // Vertices of their own, and the colours that come first.
+  if (HWY_LIKELY(refs.triangles && !refs.any_cut && !(refs.any_back && layout.back_color >= 0))) {
+    SetUpCorners(DirectCorners{refs.at}, segment, draw, ids, count, center_x, center_y, limit, in, out);
   } else
 #endif
   {
@@ -498,6 +480,6 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
     SetUpCorners(StagedCorners{in}, segment, draw, ids, count, center_x, center_y, limit, in, out);
   }
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
-  if (traits.any_cut || flat || draw.shape.offset_fill || draw.program->params.one_lambda)
+  if (refs.any_cut || flat || draw.shape.offset_fill || draw.program->params.one_lambda)
     FinishLanes(segment, draw, ids, count, center_x, center_y, in, out);
 }

@@ -196,6 +196,77 @@ struct CornerOrder {
 
 HWY_INLINE hn::Mask<DD> NoLane() { return hn::MaskFromVec(hn::Zero(DD())); }
 
+// Whether plain triangles' corners are taken straight from the vertices' records.
+#undef HALFSPACE_DIRECT_CORNERS
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+#define HALFSPACE_DIRECT_CORNERS 1
+#else
+#define HALFSPACE_DIRECT_CORNERS 0
+#endif
+
+// What the references of a batch say: where its vertices lie, and what its primitives have in common.
+struct BatchRefs {
+  // Of a cut primitive, nowhere.
+  alignas(64) const unsigned char* at[3][kSetupLanes];
+  bool triangles;  // and nothing else; whole or cut
+  bool any_cut, any_back;
+
+  // Lanes beyond `count` are as the first one, so that they can be computed with.
+  HWY_INLINE void Read(const Segment& segment, const ShadedVertices& vertices, size_t stride, const uint32_t* ids,
+                       int count) {
+    uint32_t some[kSetupLanes];
+    if (HWY_UNLIKELY(count < kSetupLanes)) {
+      for (int lane = 0; lane < kSetupLanes; ++lane) some[lane] = ids[lane < count ? lane : 0];
+      ids = some;
+    }
+    ReadAll(segment.primitives.data(), reinterpret_cast<const unsigned char*>(vertices.records), stride, ids);
+  }
+
+ private:
+#if HALFSPACE_DIRECT_CORNERS
+  HWY_INLINE void ReadAll(const PrimitiveRef* refs, const unsigned char* records, size_t stride, const uint32_t* ids) {
+    const auto one = [&](int lane) HWY_ATTR { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(refs + ids[lane])); };
+    const auto two = [&](int a, int b)
+                         HWY_ATTR { return _mm256_inserti128_si256(_mm256_castsi128_si256(one(a)), one(b), 1); };
+    const __m256i a = two(0, 4), b = two(1, 5), c = two(2, 6), e = two(3, 7);
+    const __m256i low_ab = _mm256_unpacklo_epi32(a, b), low_ce = _mm256_unpacklo_epi32(c, e);
+    const __m256i high_ab = _mm256_unpackhi_epi32(a, b), high_ce = _mm256_unpackhi_epi32(c, e);
+    Place(_mm256_unpacklo_epi64(low_ab, low_ce), records, stride, at[0]);
+    Place(_mm256_unpackhi_epi64(low_ab, low_ce), records, stride, at[1]);
+    Place(_mm256_unpacklo_epi64(high_ab, high_ce), records, stride, at[2]);
+    const __m256i traits = _mm256_unpackhi_epi64(high_ab, high_ce);  // a byte each, as they stand in PrimitiveRef
+    const auto any = [&](int bits) HWY_ATTR { return _mm256_testz_si256(traits, _mm256_set1_epi32(bits)) == 0; };
+    static_assert(offsetof(PrimitiveRef, kind) == 12 && PrimitiveKind{} == PrimitiveKind::triangle);
+    triangles = !any(0xff), any_cut = any(0xff00), any_back = any(0xff0000);
+  }
+
+  static HWY_INLINE void Place(__m256i vertex, const unsigned char* records, size_t stride, const unsigned char** out) {
+    const auto first = static_cast<long long>(reinterpret_cast<uintptr_t>(records)), step = static_cast<long long>(stride);
+#if HWY_TARGET == HWY_AVX3
+    const __m512i offset = _mm512_mul_epu32(_mm512_cvtepu32_epi64(vertex), _mm512_set1_epi64(step));
+    _mm512_store_si512(out, _mm512_add_epi64(offset, _mm512_set1_epi64(first)));
+#else
+    for (int half = 0; half < 2; ++half) {
+      const __m128i four = half == 0 ? _mm256_castsi256_si128(vertex) : _mm256_extracti128_si256(vertex, 1);
+      const __m256i offset = _mm256_mul_epu32(_mm256_cvtepu32_epi64(four), _mm256_set1_epi64x(step));
+      _mm256_store_si256(reinterpret_cast<__m256i*>(out + half * 4), _mm256_add_epi64(offset, _mm256_set1_epi64x(first)));
+    }
+#endif
+  }
+#else
+  HWY_INLINE void ReadAll(const PrimitiveRef* refs, const unsigned char* records, size_t stride, const uint32_t* ids) {
+    triangles = true, any_cut = any_back = false;
+    for (int lane = 0; lane < kSetupLanes; ++lane) {
+      const PrimitiveRef& ref = refs[ids[lane]];
+      triangles &= ref.kind == PrimitiveKind::triangle;
+      any_cut |= ref.cut;
+      any_back |= ref.back_facing;
+      for (int k = 0; k < 3; ++k) at[k][lane] = records + ref.v[k] * stride;
+    }
+  }
+#endif
+};
+
 // Corners of a batch as SetupInput has them.
 struct StagedCorners {
   static constexpr bool kPlain = false;
@@ -213,28 +284,11 @@ struct StagedCorners {
   }
 };
 
-// Whether plain triangles' corners are taken straight from the vertices' records.
-#undef HALFSPACE_DIRECT_CORNERS
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-#define HALFSPACE_DIRECT_CORNERS 1
-#else
-#define HALFSPACE_DIRECT_CORNERS 0
-#endif
-
 #if HALFSPACE_DIRECT_CORNERS
 // Corners of a batch of plain triangles where they lie: nothing is stored narrow to be read wide.
 struct DirectCorners {
   static constexpr bool kPlain = true;
-  const unsigned char* at[3][kSetupLanes];
-
-  HWY_INLINE DirectCorners(const Segment& segment, const ShadedVertices& vertices, size_t stride, const uint32_t* ids,
-                           int count) {
-    const auto* records = reinterpret_cast<const unsigned char*>(vertices.records);
-    for (int lane = 0; lane < kSetupLanes; ++lane) {  // beyond the batch: some that can be computed with
-      const PrimitiveRef& ref = segment.primitives.data()[ids[lane < count ? lane : 0]];
-      for (int k = 0; k < 3; ++k) at[k][lane] = records + ref.v[k] * stride;
-    }
-  }
+  const unsigned char* const (&at)[3][kSetupLanes];
 
   HWY_INLINE void KeepOrdered(int, CornerOrder&) const {}
 
@@ -324,21 +378,34 @@ HWY_INLINE void SpreadCorners(const Corners& from, const QuadPlan& quads, int at
 // How far ahead of the vertices a primitive is asked for.
 inline constexpr size_t kRefsAhead = kSetupLanes;
 
-// Asks for what the next batch's primitives are made from while this one is drawn: from ids[at] on, of `total`.
-HWY_INLINE void PrefetchCorners(const Segment& segment, const ShadedVertices& vertices, size_t stride,
-                                const uint32_t* ids, size_t at, size_t total, size_t count) {
+// As PrefetchCorners, of one point.
+HWY_INLINE void PrefetchPoint(const Segment& segment, const ShadedVertices& vertices, const uint32_t* ids, size_t at,
+                              size_t total) {
   const PrimitiveRef* primitives = segment.primitives.data();
-  const size_t left = total - at;
-  if (left < count) count = left;
-  for (size_t i = at; i < at + count; ++i) {
-    if (i + kRefsAhead < total) __builtin_prefetch(primitives + ids[i + kRefsAhead]);
-    const PrimitiveRef& ref = primitives[ids[i]];
-    if (HWY_UNLIKELY(ref.cut)) {
-      const auto* planes = reinterpret_cast<const char*>(segment.plane_sources.data() + ref.v[2]);
-      __builtin_prefetch(segment.cut_triangles.data() + ref.v[0]);
-      for (int k = 0; k < 3; ++k) __builtin_prefetch(planes + k * 64);
-      continue;
-    }
-    for (int k = 0; k < 3; ++k) __builtin_prefetch(vertices.records + ref.v[k] * stride);
+  if (at + kRefsAhead < total) __builtin_prefetch(primitives + ids[at + kRefsAhead]);
+  if (at < total) __builtin_prefetch(Head(vertices, vertices.layout.stride(), primitives[ids[at]].v[0]));
+}
+
+HWY_INLINE void PrefetchCut(const Segment& segment, const PrimitiveRef& ref) {
+  const auto* planes = reinterpret_cast<const char*>(segment.plane_sources.data() + ref.v[2]);
+  __builtin_prefetch(segment.cut_triangles.data() + ref.v[0]);
+  for (int k = 0; k < 3; ++k) __builtin_prefetch(planes + k * 64);
+}
+
+// Asks for what the next batch's `count` primitives ids[at ...], of `total`, are made from while this one is drawn.
+HWY_INLINE void PrefetchCorners(const Segment& segment, const BatchRefs& refs, const uint32_t* ids, size_t at, size_t total,
+                                int count) {
+  const PrimitiveRef* primitives = segment.primitives.data();
+  for (size_t i = at + kRefsAhead; i < at + 2 * kRefsAhead && i < total; ++i) __builtin_prefetch(primitives + ids[i]);
+  if (HWY_LIKELY(!refs.any_cut)) {
+    for (int k = 0; k < 3; ++k)
+      for (int lane = 0; lane < kSetupLanes; ++lane) __builtin_prefetch(refs.at[k][lane]);
+    return;
+  }
+  for (int lane = 0; lane < count; ++lane) {
+    const PrimitiveRef& ref = primitives[ids[at + static_cast<size_t>(lane)]];
+    if (ref.cut) PrefetchCut(segment, ref);
+    else
+      for (int k = 0; k < 3; ++k) __builtin_prefetch(refs.at[k][lane]);
   }
 }

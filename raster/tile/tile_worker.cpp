@@ -323,12 +323,6 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   t.packs_points = t.notes == nullptr && points_wait(draw);
 }
 
-HWY_INLINE bool AreTriangles(const Segment& segment, const uint32_t* ids, int count) {
-  bool all = true;
-  for (int i = 0; i < count; ++i) all = all && segment.primitives.data()[ids[i]].kind == PrimitiveKind::triangle;
-  return all;
-}
-
 void RunTriangles(TileContext& t, int count) {
   const unsigned listable = ListableTriangles(t, count);
   if (listable == (1u << count) - 1) return ListTriangles(t, listable);
@@ -357,11 +351,21 @@ void RunOneByOne(TileContext& t, const Segment& segment, const DrawRecord& recor
   }
 }
 
+// How many of the primitives from ids[at] on, of `total`, are set up together: of a draw that ends before `end`.
+HWY_INLINE int BatchCount(const uint32_t* ids, size_t at, size_t total, uint32_t end) {
+  if (at + kSetupLanes <= total && ids[at + kSetupLanes - 1] < end) return kSetupLanes;
+  int count = 0;
+  while (at + static_cast<size_t>(count) < total && ids[at + static_cast<size_t>(count)] < end) ++count;
+  return count;
+}
+
 void RunSegment(TileContext& t, const Segment& segment) {
   const auto& bin = segment.bins.data()[t.tile];
   const uint32_t* ids = bin.data();
   const size_t total = bin.size(), draw_count = segment.draws.size();
   size_t at = 0, draw = 0;
+  BatchRefs refs[2];  // of the batch at hand, and of the next one
+  int now = 0;
   while (at < total) {
     while (draw + 1 < draw_count && segment.draws.data()[draw + 1].first_primitive <= ids[at]) ++draw;
     const uint32_t end = draw + 1 < draw_count ? segment.draws.data()[draw + 1].first_primitive : ~0u;
@@ -376,25 +380,31 @@ void RunSegment(TileContext& t, const Segment& segment) {
       RunPoints(t, segment, record, segment.primitives.data()[ids[at++]]);
       continue;
     }
+    const size_t stride = record.vertices.layout.stride();
+    int read = 0;  // how many primitives of the batch to come are known, in refs[now]
     while (at < total && ids[at] < end) {
       if (t.packs_points && RunWaitingPoint(t, segment, record, ids[at])) {
-        if (at + kPointsAhead < total)
-          PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids, at + kPointsAhead, total, 1);
+        PrefetchPoint(segment, record.vertices, ids, at + kPointsAhead, total);
         ++at;
+        read = 0;
         continue;
       }
-      int count = 0;
-      while (count < kSetupLanes && at + static_cast<size_t>(count) < total && ids[at + static_cast<size_t>(count)] < end)
-        ++count;
+      const int count = BatchCount(ids, at, total, end);
       if (!t.input_is_clear) t.input.Clear();  // lanes beyond a batch's count are computed with, though never used
       t.input_is_clear = true;
       const bool lines = ArePlainLines(t, segment, record, ids + at, count);
+      if (count != read) refs[now].Read(segment, record.vertices, stride, ids + at, count);
       const int drawn = lines ? RunPlainLines(t, segment, record, ids + at, count) : 0;
-      if (!lines) SetUp(segment, record, ids + at, count, t.x, t.y, t.limit, t.input, t.setup);
+      if (!lines) SetUp(segment, record, ids + at, refs[now], count, t.x, t.y, t.limit, t.input, t.setup);
       const size_t next = at + static_cast<size_t>(count);
-      PrefetchCorners(segment, record.vertices, record.vertices.layout.stride(), ids, next, total, kSetupLanes);
-      if (!lines && AreTriangles(segment, ids + at, count)) RunTriangles(t, count);
+      read = BatchCount(ids, next, total, ~0u);
+      if (read > 0) {
+        refs[1 - now].Read(segment, record.vertices, stride, ids + next, read);
+        PrefetchCorners(segment, refs[1 - now], ids, next, total, read);
+      }
+      if (!lines && refs[now].triangles) RunTriangles(t, count);
       else RunOneByOne(t, segment, record, ids + at, drawn, count);
+      now = 1 - now;
       at = next;
     }
   }
