@@ -244,10 +244,11 @@ struct Packer {
 
 // Pixels of small triangles of one batch, until they are tested and packed (pixel_batch.inl).
 inline constexpr int kListLanes = 16;
+inline constexpr int kWideWindow = 16;  // pixels a side, where a program has no groups (group_walk.inl)
 
 struct ListedPixels {
   // Column in bits 0 to 5, row in bits 6 to 11, lane of the batch in bits 12 to 14.
-  alignas(64) uint32_t codes[kSetupLanes * kBlockPixels + kListLanes];
+  alignas(64) uint32_t codes[kSetupLanes * kWideWindow * kWideWindow + kListLanes];
   int count = 0;
   unsigned variant = 0;  // of all their triangles
   uint64_t blocks = 0;   // they may lie in

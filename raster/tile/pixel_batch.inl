@@ -172,7 +172,8 @@ struct ListedWindows {
   alignas(32) int32_t code[kSetupLanes];     // of the first pixel
   alignas(32) int32_t side[kSetupLanes];     // pixels of a row, less one
   alignas(32) int32_t pixels[kSetupLanes];   // of the window
-  __mmask8 above_16, above_32;               // lanes of more pixels than that
+  __mmask8 wide;                             // lanes of more columns or rows than kWindow
+  __mmask8 above_16, above_32;               // of more pixels than that; what is wide counts among the former
   uint64_t blocks;                           // of all
 
   HWY_INLINE ListedWindows(const SetupBatch& s, __m256i width, __m256i height, __mmask8 lanes) {
@@ -191,20 +192,26 @@ struct ListedWindows {
     store(width, side);
     const __m256i count = _mm256_mullo_epi32(_mm256_add_epi32(width, one), _mm256_add_epi32(height, one));
     store(count, pixels);
-    above_16 = _mm256_mask_cmpgt_epi32_mask(lanes, count, _mm256_set1_epi32(16));
+    wide = _mm256_mask_cmpge_epi32_mask(lanes, _mm256_max_epi32(width, height), _mm256_set1_epi32(kWindow));
+    above_16 = _mm256_mask_cmpgt_epi32_mask(lanes, count, _mm256_set1_epi32(16)) | wide;
     above_32 = _mm256_mask_cmpgt_epi32_mask(lanes, count, _mm256_set1_epi32(32));
     FindBlocks(x, y, _mm256_add_epi32(x, width), _mm256_add_epi32(y, height), lanes);
   }
 
  private:
-  // As WindowBlocks.
+  // As WindowBlocks; of three blocks along an axis, the one in the middle lies there.
   HWY_INLINE void FindBlocks(__m256i x0, __m256i y0, __m256i x1, __m256i y1, __mmask8 lanes) {
     const __m256i one = _mm256_set1_epi32(1), high = _mm256_set1_epi32(~7);
-    const __m512i columns = _mm512_cvtepu32_epi64(_mm256_or_si256(
-        _mm256_sllv_epi32(one, _mm256_srai_epi32(x0, 3)), _mm256_sllv_epi32(one, _mm256_srai_epi32(x1, 3))));
-    const __m512i lower = _mm512_sllv_epi64(columns, _mm512_cvtepi32_epi64(_mm256_and_si256(y0, high)));
-    const __m512i upper = _mm512_sllv_epi64(columns, _mm512_cvtepi32_epi64(_mm256_and_si256(y1, high)));
-    blocks = static_cast<uint64_t>(_mm512_mask_reduce_or_epi64(lanes, _mm512_or_si512(lower, upper)));
+    const auto middle = [](__m256i low, __m256i top)
+                            HWY_ATTR { return _mm256_srli_epi32(_mm256_add_epi32(low, top), 1); };
+    const auto column = [&](__m256i x) HWY_ATTR { return _mm256_sllv_epi32(one, _mm256_srai_epi32(x, 3)); };
+    const __m512i columns = _mm512_cvtepu32_epi64(
+        _mm256_or_si256(_mm256_or_si256(column(x0), column(x1)), column(middle(x0, x1))));
+    const auto row = [&](__m256i y) HWY_ATTR {
+      return _mm512_sllv_epi64(columns, _mm512_cvtepi32_epi64(_mm256_and_si256(y, high)));
+    };
+    const __m512i rows = _mm512_or_si512(_mm512_or_si512(row(y0), row(y1)), row(middle(y0, y1)));
+    blocks = static_cast<uint64_t>(_mm512_mask_reduce_or_epi64(lanes, rows));
   }
 };
 
@@ -212,12 +219,14 @@ struct ListedWindows {
 struct WindowLister {
   const uint32_t *places, *codes;
   __m512i edge[3], step[3], code, pixels;
+  int side;
 
   HWY_INLINE WindowLister(const ListedWindows& windows, int lane)
-      : places(kWindowLanes.places[windows.side[lane]]),
-        codes(kWindowLanes.codes[windows.side[lane]]),
+      : places(kWindowLanes.places[windows.side[lane] % kWindow]),
+        codes(kWindowLanes.codes[windows.side[lane] % kWindow]),
         code(_mm512_set1_epi32(windows.code[lane])),
-        pixels(_mm512_set1_epi32(windows.pixels[lane])) {
+        pixels(_mm512_set1_epi32(windows.pixels[lane])),
+        side(windows.side[lane]) {
     for (int k = 0; k < 3; ++k) {
       edge[k] = _mm512_set1_epi32(windows.edge[k][lane]);
       step[k] = _mm512_set1_epi32(windows.step[k][lane]);
@@ -228,16 +237,37 @@ struct WindowLister {
   template <int kVector>
   HWY_INLINE int List(uint32_t* list, int count) const {
     constexpr int kFirst = kVector * kListLanes;
-    const __m512i place = _mm512_load_si512(places + kFirst);
+    const __mmask16 window = _mm512_cmplt_epi32_mask(_mm512_add_epi32(Lanes(), _mm512_set1_epi32(kFirst)), pixels);
+    return ListPlaces(_mm512_load_si512(places + kFirst), _mm512_load_si512(codes + kFirst), window, list, count);
+  }
+
+  // Windows of up to 16 columns: a row, or two of up to 8, at a time.
+  HWY_INLINE int ListWide(int rows, uint32_t* list, int count) const {
+    const bool pairs = side < kWindow;
+    const __m512i column = pairs ? _mm512_and_si512(Lanes(), _mm512_set1_epi32(7)) : Lanes();
+    const __m512i row = pairs ? _mm512_srli_epi32(Lanes(), 3) : _mm512_setzero_si512();
+    const __mmask16 within = _mm512_cmple_epi32_mask(column, _mm512_set1_epi32(side));
+    const int step_rows = pairs ? 2 : 1;
+    const __m512i next_place = _mm512_set1_epi32(step_rows << 16), next_code = _mm512_set1_epi32(step_rows << 6);
+    __m512i place = _mm512_or_si512(column, _mm512_slli_epi32(row, 16));
+    __m512i found = _mm512_or_si512(column, _mm512_slli_epi32(row, 6));
+    for (int y = 0; y < rows; y += step_rows) {
+      const __mmask16 window = y + step_rows <= rows ? within : within & 0xff;
+      count = ListPlaces(place, found, window, list, count);
+      place = _mm512_add_epi32(place, next_place);
+      found = _mm512_add_epi32(found, next_code);
+    }
+    return count;
+  }
+
+ private:
+  static HWY_INLINE __m512i Lanes() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
+
+  HWY_INLINE int ListPlaces(__m512i place, __m512i codes_there, __mmask16 window, uint32_t* list, int count) const {
     const auto at = [&](int k) HWY_ATTR { return _mm512_add_epi32(_mm512_madd_epi16(place, step[k]), edge[k]); };
     const __m512i outside = _mm512_or_si512(_mm512_or_si512(at(0), at(1)), at(2));
-    const __m512i index = _mm512_setr_epi32(kFirst, kFirst + 1, kFirst + 2, kFirst + 3, kFirst + 4, kFirst + 5, kFirst + 6,
-                                            kFirst + 7, kFirst + 8, kFirst + 9, kFirst + 10, kFirst + 11, kFirst + 12,
-                                            kFirst + 13, kFirst + 14, kFirst + 15);
-    const __mmask16 inside = _mm512_mask_cmpge_epi32_mask(_mm512_cmplt_epi32_mask(index, pixels), outside,
-                                                          _mm512_setzero_si512());
-    const __m512i found = _mm512_add_epi32(_mm512_load_si512(codes + kFirst), code);
-    _mm512_storeu_si512(list + count, _mm512_maskz_compress_epi32(inside, found));
+    const __mmask16 inside = _mm512_mask_cmpge_epi32_mask(window, outside, _mm512_setzero_si512());
+    _mm512_storeu_si512(list + count, _mm512_maskz_compress_epi32(inside, _mm512_add_epi32(codes_there, code)));
     return count + __builtin_popcount(inside);
   }
 };
@@ -272,13 +302,14 @@ HWY_INLINE unsigned ListableTriangles(const TileContext& t, int count) {
   const SetupBatch& s = t.setup;
   if (!t.program->packs || IsWatched(t)) return 0;
   const WindowSizes sizes(s);
-  const unsigned all = (1u << count) - 1, empty = sizes.Empty() & all,
-                 small = sizes.Below(kWindow) & ShortSides(s) & all & ~empty;
+  const unsigned all = (1u << count) - 1, empty = sizes.Empty() & all;
+  unsigned small = sizes.Below(kWideWindow) & ShortSides(s) & all & ~empty;
   if (small == 0) return empty;
   uint64_t variants;
   memcpy(&variants, s.variant, sizeof variants);
   const uint8_t variant = s.variant[__builtin_ctz(small)];
   if ((variant & kDouble) != 0) return empty;
+  if (t.program->variants[variant].groups != nullptr) small &= sizes.Below(kWindow);
   const __m128i same = _mm_cmpeq_epi8(_mm_cvtsi64_si128(static_cast<long long>(variants)),
                                       _mm_set1_epi8(static_cast<char>(variant)));
   return empty | (small & static_cast<unsigned>(_mm_movemask_epi8(same)));
@@ -301,6 +332,10 @@ HWY_INLINE void ListTriangles(TileContext& t, unsigned which) {
     for (unsigned todo = lanes; todo != 0; todo &= todo - 1) {
       const int lane = __builtin_ctz(todo);
       const WindowLister lister(windows, lane);
+      if ((windows.wide >> lane & 1) != 0) {
+        count = lister.ListWide(s.max_y[lane] - s.min_y[lane] + 1, list.codes, count);
+        continue;
+      }
       count = lister.List<1>(list.codes, lister.List<0>(list.codes, count));
       if ((windows.above_32 >> lane & 1) != 0) count = lister.List<3>(list.codes, lister.List<2>(list.codes, count));
     }

@@ -7,6 +7,7 @@
 
 #include "tests/support/canvas.h"
 #include "tests/support/random.h"
+#include "tests/support/textures.h"
 
 namespace halfspace::test {
 namespace {
@@ -15,8 +16,10 @@ using namespace raster;
 
 constexpr int kViewport = 128, kWidth = 100, kHeight = 75;  // tiles of which some are cut
 
-DrawState any_state(Random& random) {
+// `view`: a texture, which every third state has.
+DrawState any_state(Random& random, const std::shared_ptr<const TextureView>& view) {
   DrawState state = plain_state(kViewport, kViewport);
+  if (random.integer(0, 2) == 0) state.texture.view = view;
   if (random.integer(0, 4) != 0)
     state.depth = {true, random.integer(0, 2) != 0 ? CompareFunc::less : CompareFunc(random.integer(0, 7)),
                    random.integer(0, 4) != 0};
@@ -42,6 +45,7 @@ Vertex any_corner(Random& random, int64_t x, int64_t y, int64_t reach, int64_t g
   Vertex v = snapped_vertex(at_x / grid * grid, at_y / grid * grid, kViewport, random.real(-0.9f, 0.9f),
                             {c[0], c[1], c[2], c[3]});
   v.x *= w, v.y *= w, v.z *= w, v.w = w;
+  v.s = random.real(-1, 2), v.t = random.real(-1, 2);
   return v;
 }
 
@@ -72,8 +76,12 @@ Picture draw_stream(uint64_t seed, bool fuse, bool together) {
   Random random(seed);
   Canvas canvas(kWidth, kHeight, 1, ColorFormat::rgba8, fuse);
   canvas.clear({0.1f, 0.2f, 0.3f, 0.4f}, 1);
+  TestTexture texture;
+  texture.add_noise(random, 16, 8);
+  const auto view =
+      texture.view(sampler_of(random.integer(0, 1) != 0 ? Filter::linear : Filter::nearest, Wrap::repeat));
   for (int i = 0; i < 25; ++i) {
-    const DrawState state = any_state(random);
+    const DrawState state = any_state(random, view);
     const std::vector<Vertex> heap = any_heap(random);
     const std::span<const Vertex> all(heap);
     if (together) {
