@@ -33,12 +33,18 @@ uint32_t given_count(const ImmediateState& im) {
   return im.shared.active() ? im.shared.given() : im.vertex_count();
 }
 
-// Room for what is gathered aside, as much as the buffer has.
-void size_side_arrays(ImmediateState& im) {
-  const size_t capacity = im.buffer.size() / kMaxVertexFloats;
+// Of points, lines and strips few vertices come again, and edge flags and materials are kept vertex by
+// vertex.
+bool may_share(const ImmediateState& im) {
+  return (im.mode == GL_TRIANGLES || im.mode == GL_QUADS) && !im.format.rare;
+}
+
+// Room for what is gathered aside of `capacity` vertices. May throw std::bad_alloc.
+void size_side_arrays(ImmediateState& im, size_t capacity) {
   if (im.format.edge_flag && im.edge_flags.size() < capacity) im.edge_flags.resize(capacity);
   if (!im.materials.empty() && im.material_index.size() < capacity) im.material_index.resize(capacity);
-  if (im.shared.active()) im.shared.reserve(capacity);
+  // Also where nothing is looked for now: the batch may be parted, and its next part be shared.
+  if (may_share(im) || im.shared.active()) im.shared.reserve(capacity);
 }
 
 float* vertex_at(ImmediateState& im, uint32_t i) { return im.buffer.data() + size_t(i) * im.format.floats; }
@@ -68,12 +74,6 @@ void draw_gathered(Context& context, GLenum mode, uint32_t count) {
   }
   im.shared.note_drawn(count);
   submit(context, packet);
-}
-
-// Of points, lines and strips few vertices come again, and edge flags and materials are kept vertex by
-// vertex.
-bool may_share(const ImmediateState& im) {
-  return (im.mode == GL_TRIANGLES || im.mode == GL_QUADS) && !im.format.rare;
 }
 
 // What of a full batch the next one begins with, so that the drawing goes on as if it had not been parted:
@@ -142,7 +142,6 @@ void part_batch(Context& context) {
   }
   im.strip_goes_on = im.mode == GL_LINE_STRIP || im.mode == GL_LINE_LOOP;
   im.shared.start(may_share(im));
-  size_side_arrays(im);
   set_cursor(im, kept.first + kept.last);
 }
 
@@ -151,8 +150,8 @@ bool grow(ImmediateState& im) try {
   if (capacity >= im.longest) return false;
   const uint32_t count = im.vertex_count();
   const size_t wanted = capacity ? std::min<size_t>(capacity * 4, im.longest) : kFirstBatchVertices;
+  size_side_arrays(im, wanted);  // first: where there is no memory for it, vertices stay where they are
   im.buffer.resize(wanted * kMaxVertexFloats);
-  size_side_arrays(im);
   set_cursor(im, count);
   return true;
 } catch (const std::bad_alloc&) {
@@ -188,7 +187,7 @@ void start_batch(Context& context, GLenum mode) {
   im.color_varies = im.loop_parted = im.strip_goes_on = false;
   im.materials.clear();
   im.shared.start(may_share(im));
-  size_side_arrays(im);
+  size_side_arrays(im, im.buffer.size() / kMaxVertexFloats);
 }
 
 void close_loop(Context& context) {
@@ -236,8 +235,9 @@ void gather_material(Context& context, const raster::MaterialPair& pair) {
   if (!im.inside || !im.state->lighting.enabled) return;
   const uint32_t count = im.vertex_count();
   if (im.materials.empty()) {
+    const size_t capacity = im.buffer.size() / kMaxVertexFloats;
+    if (im.material_index.size() < capacity) im.material_index.resize(capacity);
     im.materials.push_back(im.state->lighting.material);
-    size_side_arrays(im);
     std::fill_n(im.material_index.begin(), count, 0u);
     im.format.rare = true;
     im.shared.find_no_more();
@@ -278,6 +278,7 @@ void begin(Context& context, GLenum mode) try {
   set_cursor(im, im.shared.active() ? im.shared.distinct() : waiting);
   set_table(context, kInsideBeginEndTable);
 } catch (const std::bad_alloc&) {
+  context.immediate.cursor = context.immediate.limit = nullptr;  // outside, after all
   record_error(context, GL_OUT_OF_MEMORY, "begin");
 }
 
