@@ -123,8 +123,10 @@ struct Device::Impl {
   void need_planes(const DrawState& state, const PipelineProgram& program);
   void note_targets(const DrawState& state, const PipelineProgram& program);
   void draw(const DrawPacket& packet);
-  void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape);
-  void draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape);
+  void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
+                     const PipelineProgram& program);
+  void draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
+                 const PipelineProgram& program);
   void execute_if_full();
   void draw_pixels(const PixelPacket& packet);
   bool prepare_pixels(const PixelPacket& packet, const PipelineProgram& program);
@@ -246,16 +248,16 @@ void Device::Impl::draw(const DrawPacket& packet) {
   const Rect reach = shape.general ? draw_window(state, *target) : draw_bounds(state, *target);
   if (program.draws_nothing || reach.empty()) return;
   need_planes(state, program);
-  draw_in_parts(packet, layout, shape);
+  draw_in_parts(packet, layout, shape, program);
 }
 
 // Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending
 // stays small.
 void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout,
-                                 const ShapePlan& shape) {
+                                 const ShapePlan& shape, const PipelineProgram& program) {
   const uint32_t each = separate_vertices(packet.primitive);
   const uint32_t step = each * kPartPrimitives * scale();
-  if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape);
+  if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program);
   for (uint32_t first = 0; first < packet.index_count; first += step) {
     DrawPacket part = packet;
     part.index_count = std::min(step, packet.index_count - first);
@@ -269,17 +271,19 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
       part.indices = part_indices.data();
     }
     part.batch = part_of(packet.batch, lowest, highest - lowest + 1);
-    draw_part(part, layout, shape);
+    // Executing a full pass drops it.
+    draw_part(part, layout, shape, first == 0 ? program : program_for(packet.state, layout));
   }
 }
 
-void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape) {
+void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
+                             const PipelineProgram& program) {
   DrawRecord& record = filling->draws.emplace_back();
   record.state = packet.state;
   record.bounds = draw_bounds(*packet.state, *target);
   record.window = draw_window(*packet.state, *target);
-  record.program = &program_for(packet.state, layout);  // executing a full pass drops it
-  note_targets(*packet.state, *record.program);
+  record.program = &program;
+  note_targets(*packet.state, program);
   record.shape = shape;
   record.edge_flags = packet.batch.edge_flag;
   record.stipple_start = packet.continues ? stipple : 0;

@@ -71,11 +71,14 @@ struct RasterState {
 struct DrawState {
   // Projection * modelview, column-major, multiplied in double from the float stacks.
   std::array<double, 16> clip_from_object{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  // Modelview, and the inverse transpose of its upper 3x3 (column-major); looked at where lighting, texgen, fog or user
-  // clip planes are on.
+  // Modelview, and the inverse transpose of its upper 3x3 (column-major); looked at where lighting, texgen,
+  // fog or user clip planes are on.
   std::array<double, 16> eye_from_object{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   std::array<double, 9> normal_from_object{1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool normalize = false;  // GL_NORMALIZE
+  // States with the same number, unless that is 0, differ at most in what stands above, and in the texture's
+  // view and environment. Compared before all the rest is.
+  uint64_t rest_version = 0;
   LightingState lighting;
   TexGenState tex_gen;
   ClipPlaneState clip_planes;

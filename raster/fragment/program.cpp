@@ -501,8 +501,9 @@ const ProgramCode& CodeCache::find(const CodeKey& key) {
 
 bool have_same_program(const DrawState& a, const DrawState& b) {
   const TextureUnitState &s = a.texture, &t = b.texture;
-  return s.view == t.view && s.env == t.env && s.env_color == t.env_color &&
-         a.raster.flat_shading == b.raster.flat_shading && a.polygon.stipple == b.polygon.stipple && a.fog == b.fog &&
+  if (s.view != t.view || s.env != t.env || !(s.env_color == t.env_color)) return false;
+  if (a.rest_version == b.rest_version && a.rest_version != 0) return true;
+  return a.raster.flat_shading == b.raster.flat_shading && a.polygon.stipple == b.polygon.stipple && a.fog == b.fog &&
          a.stencil == b.stencil && a.depth == b.depth && a.alpha_test == b.alpha_test && a.blend == b.blend &&
          a.logic_op == b.logic_op && a.color_mask == b.color_mask && a.color_targets == b.color_targets &&
          a.accuracy == b.accuracy;

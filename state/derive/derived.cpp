@@ -233,6 +233,7 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   if (derived.dirty == 0) return derived.state;
   for (int group = 0; group < kDirtyGroups; ++group)
     if (derived.dirty >> group & 1) derived.versions[size_t(group)] = ++derived.last_version;
+  if ((derived.dirty & ~uint32_t{kDirtyTransform | kDirtyTexture}) != 0) derived.rest_version = derived.last_version;
   const auto next = derived.states.take();
   const auto bring_up_to_date = [&](uint32_t bit, auto&&... derive_groups) {
     const auto group = size_t(std::countr_zero(bit));
@@ -248,6 +249,7 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   bring_up_to_date(kDirtyFragment, derive_fragment);
   bring_up_to_date(kDirtyTexture, derive_texture);
   bring_up_to_date(kDirtyTexCoords, derive_tex_coords);
+  next->rest_version = derived.rest_version;
   derived.texture_revision = revision;
   derived.dirty = 0;
   derived.state = next;

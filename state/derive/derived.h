@@ -41,6 +41,7 @@ struct DerivedState {
   uint64_t texture_revision = 0;  // of the texture unit in `state`
   std::array<uint64_t, kDirtyGroups> versions{};  // of each group, as the context has it
   uint64_t last_version = 0;
+  uint64_t rest_version = 0;  // of all groups but transform and texture
   Reused<VersionedState> states;
   std::shared_ptr<const raster::DrawState> state;
 };

@@ -62,6 +62,15 @@ TEST_F(BatchTest, WhatFragmentsMeetMakesAProgram) {
     textured.texture.view = one_texel(level);
     EXPECT_TRUE(programs.insert(program(textured)).second) << "texture " << int{level};
   }
+  // Which the number of all the rest does not stand for.
+  textured.rest_version = 1;
+  EXPECT_TRUE(programs.count(program(textured)) == 1);
+  textured.texture.env = EnvMode::decal;
+  EXPECT_TRUE(programs.insert(program(textured)).second);
+  textured.texture.env_color.r = 0.75f;
+  EXPECT_TRUE(programs.insert(program(textured)).second);
+  textured.texture.view = one_texel(3);
+  EXPECT_TRUE(programs.insert(program(textured)).second);
 }
 
 TEST_F(BatchTest, WhatTheVertexStageHasDoneWithMakesNone) {
@@ -94,7 +103,8 @@ TEST_F(BatchTest, ManySmallDrawsFillIt) {
   EXPECT_LE(draws, 1024) << "several kilobytes each";
 }
 
-// How many primitives of a kind fill a batch, dealt to so many tiles in turn, `run` of them to one before the next.
+// How many primitives of a kind fill a batch, dealt to so many tiles in turn, `run` of them to one before the
+// next.
 size_t primitives_to_fill(PrimitiveKind kind, int tiles, int run = 1) {
   const Framebuffer::Impl framebuffer(16 * kTileSize, 16 * kTileSize, ColorFormat::rgba8, 1);
   Batch batch;
@@ -118,7 +128,8 @@ TEST_F(BatchTest, TrianglesThatLieScatteredAreCollectedLonger) {
 
 TEST_F(BatchTest, TrianglesThatGoOnToOtherTilesAreNot) {
   const size_t dense = primitives_to_fill(PrimitiveKind::triangle, 4);
-  EXPECT_LE(primitives_to_fill(PrimitiveKind::triangle, 256, 128), 2 * dense) << "no tile is visited once less";
+  EXPECT_LE(primitives_to_fill(PrimitiveKind::triangle, 256, 128), 2 * dense)
+      << "no tile is visited once less";
 }
 
 TEST(RecycledTest, ObjectsStayInPlaceAndComeBackFresh) {

@@ -14,12 +14,21 @@ bool same(const DrawState& a, const DrawState& b) {
          a.raster.cull_front == b.raster.cull_front && a.raster.cull_back == b.raster.cull_back &&
          a.raster.front_is_ccw == b.raster.front_is_ccw && a.raster.flat_shading == b.raster.flat_shading &&
          a.raster.scissor_test == b.raster.scissor_test && a.raster.scissor == b.raster.scissor &&
-         a.depth == b.depth && a.alpha_test == b.alpha_test && a.blend == b.blend &&
-         a.point == b.point && a.line == b.line && a.polygon == b.polygon &&
-         a.clip_planes.enabled == b.clip_planes.enabled && a.clip_planes.planes == b.clip_planes.planes &&
-         a.color_mask == b.color_mask && a.texture.view == b.texture.view && a.texture.env == b.texture.env &&
+         a.depth == b.depth && a.alpha_test == b.alpha_test && a.blend == b.blend && a.point == b.point &&
+         a.line == b.line && a.polygon == b.polygon && a.clip_planes.enabled == b.clip_planes.enabled &&
+         a.clip_planes.planes == b.clip_planes.planes && a.color_mask == b.color_mask &&
+         a.texture.view == b.texture.view && a.texture.env == b.texture.env &&
          a.texture.env_color == b.texture.env_color && a.texture.matrix == b.texture.matrix &&
          a.texture.matrix_is_identity == b.texture.matrix_is_identity && a.accuracy == b.accuracy;
+}
+
+// Where DrawState::rest_version is.
+bool rest_is_same(const DrawState& a, DrawState b) {
+  b.clip_from_object = a.clip_from_object;
+  b.texture.view = a.texture.view;
+  b.texture.env = a.texture.env;
+  b.texture.env_color = a.texture.env_color;
+  return same(a, b);
 }
 
 const double kMatrix[16] = {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 1, 2, 3, 1};
@@ -111,10 +120,23 @@ TEST_F(DeriveTest, PartsEqualTheWhole) {
     ASSERT_EQ(op::get_error(*context), GLenum(GL_NO_ERROR)) << name;
     const auto after = derive(*context);
     EXPECT_FALSE(same(*before, *after)) << name << " changed nothing";
+    EXPECT_TRUE(before->rest_version != after->rest_version || rest_is_same(*before, *after))
+        << name << " changed what the version stands for";
     context->derived.dirty = kDirtyAll;
     context->derived.state = nullptr;
     EXPECT_TRUE(same(*derive(*context), *after)) << name << " did not mark all that it changed";
   }
+}
+
+TEST_F(DeriveTest, MatricesAndTexturesLeaveTheRestsVersion) {
+  op::enable(*context, GL_TEXTURE_2D);
+  const uint64_t version = derive(*context)->rest_version;
+  EXPECT_NE(version, 0u);
+  op::load_matrix(*context, kMatrix);
+  op::bind_texture(*context, GL_TEXTURE_2D, 3);
+  EXPECT_EQ(derive(*context)->rest_version, version);
+  op::depth_func(*context, GL_ALWAYS);
+  EXPECT_NE(derive(*context)->rest_version, version);
 }
 
 TEST_F(DeriveTest, ASharingContextSeesNewTexels) {
