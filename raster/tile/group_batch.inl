@@ -137,11 +137,11 @@ HWY_INLINE __m512i AddWindow(const SpanBatch& b, int lane, int x, int y, GroupLi
 // What is listed of a batch's triangles and not yet drawn.
 class GroupBatch {
  public:
-  // Of the first `count` primitives of the batch.
-  HWY_INLINE GroupBatch(TileContext& t, int count)
+  // Of these lanes of the batch.
+  HWY_INLINE GroupBatch(TileContext& t, unsigned lanes)
       : t_(t), list_(t.groups, 0), length_(_mm512_setzero_si512()) {
     if (!t.stippled && !IsWatched(t))
-      spans_.Make(t.setup, (1u << count) - 1);
+      spans_.Make(t.setup, lanes);
     else
       spans_.fits = 0;
   }
@@ -192,7 +192,7 @@ class GroupBatch {
 };
 #else
 struct GroupBatch {
-  HWY_INLINE GroupBatch(TileContext&, int) {}
+  HWY_INLINE GroupBatch(TileContext&, unsigned) {}
   HWY_INLINE bool Add(int) { return false; }
   HWY_INLINE void Draw() {}
 };

@@ -296,13 +296,12 @@ HWY_INLINE __mmask8 ShortSides(const SetupBatch& s) {
   return _mm256_cmplt_epi32_mask(size, _mm256_set1_epi32(1 << 15));
 }
 
-// Of the first `count` triangles of the batch, those of one variant that may be listed, and those without
-// pixels.
-HWY_INLINE unsigned ListableTriangles(const TileContext& t, int count) {
+// Of these triangles of the batch, those of one variant that may be listed, and those without pixels.
+HWY_INLINE unsigned ListableTriangles(const TileContext& t, unsigned all) {
   const SetupBatch& s = t.setup;
   if (!t.program->packs || IsWatched(t)) return 0;
   const WindowSizes sizes(s);
-  const unsigned all = (1u << count) - 1, empty = sizes.Empty() & all;
+  const unsigned empty = sizes.Empty() & all;
   unsigned small = sizes.Below(kWideWindow) & ShortSides(s) & all & ~empty;
   if (small == 0) return empty;
   uint64_t variants;
@@ -345,6 +344,6 @@ HWY_INLINE void ListTriangles(TileContext& t, unsigned which) {
   if (list.count != 0) PackAllListed(t);
 }
 #else
-HWY_INLINE unsigned ListableTriangles(const TileContext&, int) { return 0; }
+HWY_INLINE unsigned ListableTriangles(const TileContext&, unsigned) { return 0; }
 HWY_INLINE void ListTriangles(TileContext&, unsigned) {}
 #endif

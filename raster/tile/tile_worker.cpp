@@ -323,11 +323,13 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   t.packs_points = t.notes == nullptr && points_wait(draw);
 }
 
-void RunTriangles(TileContext& t, int count) {
-  const unsigned listable = ListableTriangles(t, count);
-  if (listable == (1u << count) - 1) return ListTriangles(t, listable);
-  GroupBatch groups(t, count);
-  for (int lane = 0; lane < count;) {
+// Triangles in lanes [first, end) of the batch.
+void RunTriangles(TileContext& t, int first, int end) {
+  const unsigned lanes = (1u << end) - (1u << first);
+  const unsigned listable = ListableTriangles(t, lanes);
+  if (listable == lanes) return ListTriangles(t, listable);
+  GroupBatch groups(t, lanes);
+  for (int lane = first; lane < end;) {
     const int run = __builtin_ctz(~(listable >> lane));
     if (run == 0 && groups.Add(lane)) {
       ++lane;
@@ -340,6 +342,8 @@ void RunTriangles(TileContext& t, int count) {
   }
   groups.Draw();
 }
+
+#include "raster/tile/joined_draws.inl"
 
 // Primitives ids[first .. count) of a batch.
 void RunOneByOne(TileContext& t, const Segment& segment, const DrawRecord& record, const uint32_t* ids, int first,
@@ -390,6 +394,12 @@ void RunSegment(TileContext& t, const Segment& segment) {
         continue;
       }
       const int count = BatchCount(ids, at, total, end);
+      if (count < kSetupLanes && at + static_cast<size_t>(count) < total) {
+        if (const size_t joined = RunJoinedDraws(t, segment, ids, at, total, draw); joined != 0) {
+          at += joined;
+          break;
+        }
+      }
       if (!t.input_is_clear) t.input.Clear();  // lanes beyond a batch's count are computed with, though never used
       t.input_is_clear = true;
       const bool lines = ArePlainLines(t, segment, record, ids + at, count);
@@ -402,7 +412,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
         refs[1 - now].Read(segment, record.vertices, stride, ids + next, read);
         PrefetchCorners(segment, refs[1 - now], ids, next, total, read);
       }
-      if (!lines && refs[now].triangles) RunTriangles(t, count);
+      if (!lines && refs[now].triangles) RunTriangles(t, 0, count);
       else RunOneByOne(t, segment, record, ids + at, drawn, count);
       now = 1 - now;
       at = next;
