@@ -4,6 +4,8 @@
 #include <bit>
 #include <stdexcept>
 
+#include "raster/surface/rows.h"
+
 namespace halfspace::raster {
 namespace {
 
@@ -14,6 +16,13 @@ template <class Fill>
 void settle(uint64_t& marks, uint64_t mask, Fill fill) {
   for (uint64_t todo = marks & mask; todo != 0; todo &= todo - 1) fill(std::countr_zero(todo));
   marks &= ~mask;
+}
+
+// The same for blocks of words in `memory`. They are on their way from afar: few wide stores wait for them, where many
+// narrow ones would not find room to wait.
+void settle_words(uint64_t& marks, uint64_t mask, uint32_t value, uint32_t* memory) {
+  const auto fill = row_functions().fill_row;
+  settle(marks, mask, [&](int block) { fill(value, kBlockPixels, memory + block * kBlockPixels); });
 }
 
 }  // namespace
@@ -59,12 +68,10 @@ Rect Framebuffer::Impl::tile_rect(size_t tile) const {
 
 void Framebuffer::Impl::settle_color(size_t tile, uint64_t mask, int plane) {
   ColorMarks& marks = tiles[tile].color[plane];
+  if (format == ColorFormat::rgba8)
+    return settle_words(marks.is_clear, mask, marks.rgba8, color_tile<uint32_t>(tile, plane));
   settle(marks.is_clear, mask, [&](int block) {
     std::byte* pixels = color_tile<std::byte>(tile, plane) + static_cast<size_t>(block) * kBlockPixels * color_pixel_bytes();
-    if (format == ColorFormat::rgba8) {
-      std::fill_n(reinterpret_cast<uint32_t*>(pixels), kBlockPixels, marks.rgba8);
-      return;
-    }
     float* channels = reinterpret_cast<float*>(pixels);
     const float value[4] = {marks.value.r, marks.value.g, marks.value.b, marks.value.a};
     for (int c = 0; c < 4; ++c) std::fill_n(channels + c * kBlockPixels, kBlockPixels, value[c]);
@@ -73,9 +80,7 @@ void Framebuffer::Impl::settle_color(size_t tile, uint64_t mask, int plane) {
 
 void Framebuffer::Impl::settle_depth(size_t tile, uint64_t mask) {
   TileState& state = tiles[tile];
-  settle(state.depth_is_clear, mask, [&](int block) {
-    std::fill_n(depth_tile(tile) + block * kBlockPixels, kBlockPixels, state.clear_depth);
-  });
+  settle_words(state.depth_is_clear, mask, state.clear_depth, depth_tile(tile));
   if ((state.depth_on_plane & mask) == 0) return;
   const DepthPlane plane = state.depth_plane;
   double across[kTileSize];

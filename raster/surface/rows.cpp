@@ -82,7 +82,9 @@ void WriteRuns(const BlockRun* runs, int count, const PixelRows& out) {
   }
 }
 
-RowFunctions Functions() { return {&WriteRuns}; }
+void FillWords(uint32_t value, int width, uint32_t* to) { FillRow(value, width, to); }
+
+RowFunctions Functions() { return {&WriteRuns, &FillWords}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace halfspace::raster

@@ -24,6 +24,8 @@ struct PixelRows {
 struct RowFunctions {
   // Runs that follow each other, row by row from end to end: memory likes its rows whole.
   void (*write_runs)(const BlockRun* runs, int count, const PixelRows& out);
+  // `width` times the same.
+  void (*fill_row)(uint32_t value, int width, uint32_t* to);
 };
 // Those of the level in use.
 RowFunctions row_functions();
