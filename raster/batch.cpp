@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "raster/surface/clear.h"
+#include "raster/tile/tile_worker.h"
 
 namespace halfspace::raster {
 namespace {
@@ -131,6 +132,10 @@ void Batch::deal_tiles(const Framebuffer::Impl& target, bool all, int workers) {
   for (uint32_t& end : ends) begin += std::exchange(end, begin);
   tiles.resize(begin);
   for_each([&](uint32_t tile) { tiles[ends[owner(tile, target.tiles_x, count)]++] = tile; });
+}
+
+uint32_t Batch::tile_after(uint32_t i) const {
+  return std::find(ends.begin(), ends.end(), i + 1) == ends.end() ? tiles[i + 1] : kNoTile;
 }
 
 void Batch::count_into(DeviceStatistics& statistics) const {

@@ -38,6 +38,8 @@ class Batch {
   // Tiles with something to draw, or all of them, as tasks for `workers`: ends[w] ends the stretch of worker
   // w, which is dealt the same tiles each time.
   void deal_tiles(const Framebuffer::Impl& target, bool all, int workers);
+  // The tile of task i + 1, if the same worker is dealt that, else kNoTile.
+  uint32_t tile_after(uint32_t i) const;
   void count_into(DeviceStatistics& statistics) const;
   void discard();
 

@@ -397,7 +397,7 @@ void Device::Impl::hand_over(const LinearImage* image, ColorPlane plane) {
     TileStatistics local;
     if (meters) local.meter = &worker_meters[at];
     if (notes) local.notes = notes->tile(batch.tiles[i]);
-    if (!batch.empty()) run_tile(batch.segments(), *target, batch.tiles[i], local);
+    if (!batch.empty()) run_tile(batch.segments(), *target, batch.tiles[i], batch.tile_after(i), local);
     if (shows && notes) notes->paint_tile(*target, batch.tiles[i], plane_index(plane));
     if (shows) show_tile(batch.tiles[i], by_rows, shown, plane);
     counts[at].fragments += local.fragments;

@@ -24,6 +24,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/tile/triangle.inl"
 #include "raster/tile/packing.inl"
 
+#include "raster/tile/tile_ahead.inl"
+
 // What is the same for all primitives of a tile, and the scratch they share.
 struct TileContext {
   Framebuffer::Impl* framebuffer;
@@ -44,6 +46,7 @@ struct TileContext {
   bool projective;
   bool packs_points;  // points of one pixel wait with the others, without any set-up
   TileStatistics* statistics;
+  TileAhead ahead;
   BlockContext block;
   TilePlanes planes;
   SetupBatch setup;
@@ -162,6 +165,7 @@ HWY_INLINE uint64_t WindowBlocks(int x0, int y0, int x1, int y1) {
 }
 
 HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
+  t.ahead.AskForSome(t.program->plane, t.program->reads_depth);
   if (t.program->reads_depth && (t.state->depth_marks() & blocks) != 0) t.framebuffer->settle_depth(t.tile, blocks);
   const int plane = t.program->plane;
   if ((t.state->color[plane].is_clear & blocks) != 0) t.framebuffer->settle_color(t.tile, blocks, plane);
@@ -420,7 +424,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
   }
 }
 
-void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile,
+void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile, uint32_t next,
              TileStatistics& statistics) {
   alignas(64) float whole[kBlockPixels];
   for (float& c : whole) c = 1;
@@ -432,6 +436,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.x = static_cast<int>(tile % static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
   t.y = static_cast<int>(tile / static_cast<uint32_t>(framebuffer.tiles_x)) * kTileSize;
   t.statistics = &statistics;
+  t.ahead.Expect(segments, framebuffer, next);
   t.notes = statistics.notes;
   t.block.meter = statistics.meter;
   t.block.setup = &t.setup;
@@ -449,13 +454,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace halfspace::raster {
 namespace {
-using RunTileFunction = void (*)(std::span<Segment* const>, Framebuffer::Impl&, uint32_t, TileStatistics&);
+using RunTileFunction = void (*)(std::span<Segment* const>, Framebuffer::Impl&, uint32_t, uint32_t, TileStatistics&);
 RunTileFunction select_run_tile() { HALFSPACE_SELECT_FUNCTION(RunTile) }
 }  // namespace
 
-void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile,
+void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile, uint32_t next,
               TileStatistics& statistics) {
-  select_run_tile()(segments, framebuffer, tile, statistics);
+  select_run_tile()(segments, framebuffer, tile, next, statistics);
 }
 
 namespace {

@@ -16,8 +16,11 @@ struct TileStatistics {
   PixelNote* notes = nullptr;   // of the tile's pixels, for a view of them, or null
 };
 
+inline constexpr uint32_t kNoTile = ~uint32_t{0};
+
 // Draws the bins of `tile` of all segments, in their order, on the framebuffer. Tiles are independent of each other.
-void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile,
+// `next`: what the same thread will draw after it, or kNoTile.
+void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile, uint32_t next,
               TileStatistics& statistics);
 
 }  // namespace halfspace::raster

@@ -11,6 +11,7 @@
 #include "raster/primitive/window_box.h"
 #include "raster/recycled.h"
 #include "raster/surface/framebuffer.h"
+#include "raster/tile/tile_worker.h"
 
 namespace {
 
@@ -130,6 +131,18 @@ TEST_F(BatchTest, TrianglesThatGoOnToOtherTilesAreNot) {
   const size_t dense = primitives_to_fill(PrimitiveKind::triangle, 4);
   EXPECT_LE(primitives_to_fill(PrimitiveKind::triangle, 256, 128), 2 * dense)
       << "no tile is visited once less";
+}
+
+TEST_F(BatchTest, AWorkersTilesFollowEachOther) {
+  const Framebuffer::Impl framebuffer(4 * kTileSize, 4 * kTileSize, ColorFormat::rgba8, 1);
+  batch.deal_tiles(framebuffer, true, 3);
+  ASSERT_EQ(batch.tiles.size(), 16u);
+  uint32_t begin = 0;
+  for (const uint32_t end : batch.ends) {
+    for (uint32_t i = begin; i + 1 < end; ++i) EXPECT_EQ(batch.tile_after(i), batch.tiles[i + 1]);
+    EXPECT_EQ(batch.tile_after(end - 1), kNoTile) << "the next one is another worker's";
+    begin = end;
+  }
 }
 
 TEST(RecycledTest, ObjectsStayInPlaceAndComeBackFresh) {
