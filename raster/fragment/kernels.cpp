@@ -123,9 +123,9 @@ struct OnceAll : OnceOf<L, ids>... {
   HWY_INLINE explicit OnceAll(const BlockContext& c) : OnceOf<L, ids>(c)... {}
 };
 
-// Runs one stage on a group; false when no lane is left.
-template <class L, StageId id>
-HWY_INLINE bool Step(const BlockContext& c, const OnceOf<L, id>& once, int i, Lanes& v) {
+// Runs one stage on a group; false when no lane is left. What was worked out may be for lanes that differ in stores only.
+template <class L, class Worked, StageId id>
+HWY_INLINE bool Step(const BlockContext& c, const OnceOf<Worked, id>& once, int i, Lanes& v) {
   BodyOf<id>::Type::template Run<L>(c, once.once, i, v);
   if constexpr (BodyOf<id>::Type::kKills) return !hn::AllFalse(DF(), v.live);
   return true;
@@ -166,7 +166,7 @@ HWY_INLINE void RunGroups(BlockContext& c) {
     Lanes v;
     v.live = MaskFromBits(group);
     LoadSlots<TakenSlots<ids...>()>(c, i, v);
-    (Step<L, ids>(c, once, i, v) && ...);
+    (Step<L, L, ids>(c, once, i, v) && ...);
     StoreSlots<LeftSlots<ids...>()>(v, i, c);
     if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << i;
   }
@@ -210,7 +210,7 @@ HWY_INLINE void RunBlocks(const BlockContext& c) {
     for (int i = first; i < first + kBlockPixels; i += kLanes) {
       Lanes v;
       v.live = MaskFromBits(kGroupBits);
-      (Step<L, ids>(c, once, i, v) && ...);
+      (Step<L, L, ids>(c, once, i, v) && ...);
     }
   }
 }
@@ -226,6 +226,20 @@ void RunTileBlocks(BlockContext& c) {
   RunBlocks<std::conditional_t<kKills, TileLanes<false>, FullTileLanes<false>>, ids...>(c);
 }
 
+// RunRowBlock where all of the block is live and stays so.
+template <class L, StageId... ids>
+HWY_INLINE void RunFullRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
+  const int first = block * kBlockPixels, slot = first % (kRowBlocks * kBlockPixels);
+#pragma GCC unroll 4
+  for (int p = 0; p < kBlockPixels; p += kLanes) {
+    Lanes v;
+    v.live = MaskFromBits(kGroupBits);
+    LoadSlots<TakenSlots<ids...>()>(c, slot + p, v);
+    (Step<FullTileLanes<false>, L, ids>(c, once, first + p, v) && ...);
+    StoreSlots<LeftSlots<ids...>()>(v, slot + p, c);
+  }
+}
+
 // A part of a list on whole blocks of a row of a tile; slots count from the row's first pixel.
 template <class L, StageId... ids>
 HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
@@ -233,6 +247,8 @@ HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int
   constexpr int kRowPixels = kRowBlocks * kBlockPixels;
   const int first = block * kBlockPixels;
   const uint64_t live = c.row_live[block % kRowBlocks];
+  if constexpr ((StoresPixels<typename BodyOf<ids>::Type> || ...) && !kKills)
+    if (live == ~uint64_t{0}) return RunFullRowBlock<L, ids...>(c, once, block);
   uint64_t left = 0;
   for (int p = 0; p < kBlockPixels; p += kLanes) {
     const uint64_t group = live >> p & kGroupBits;
@@ -241,7 +257,7 @@ HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int
     Lanes v;
     v.live = MaskFromBits(group);
     LoadSlots<TakenSlots<ids...>()>(c, slot, v);
-    (Step<L, ids>(c, once, i, v) && ...);
+    (Step<L, L, ids>(c, once, i, v) && ...);
     StoreSlots<LeftSlots<ids...>()>(v, slot, c);
     if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << p;
   }
@@ -286,7 +302,7 @@ HWY_INLINE void RunListedGroups(BlockContext& c) {
     if constexpr (kGroupsOfMany) c.lane = group->lane();
     Lanes v;
     v.live = MaskFromBits(group->live);
-    (Step<L, ids>(c, once, i, v) && ...);
+    (Step<L, L, ids>(c, once, i, v) && ...);
     if constexpr (kKills) {
       const unsigned live = MaskBits(v.live);
       *left = {place, static_cast<uint16_t>(live)};

@@ -46,7 +46,9 @@ HWY_NOINLINE void FillTilePlane(const BlockContext& c, int plane) {
 
 struct TilePlane {
   const TilePlanes::Single* table;
-  HWY_INLINE TilePlane(const BlockContext& c, int plane) : table(&c.planes->single[plane]) {
+  HWY_INLINE TilePlane(const BlockContext& c, int plane) : TilePlane(c, plane, c.planes->single + plane) {}
+  // By the table of a plane before: so that the compiler knows how far apart they lie.
+  HWY_INLINE TilePlane(const BlockContext& c, int plane, const TilePlanes::Single* at) : table(at) {
     if ((c.planes->has_single >> plane & 1) == 0) FillTilePlane(c, plane);
   }
   HWY_INLINE VF At(int i) const {
@@ -58,6 +60,15 @@ struct TilePlane {
       return hn::Add(hn::Set(d, table->row[RowInTile(i)]), across);
   }
 };
+
+// Plane `first` + `step`, beside `before`, which is the first.
+template <class Plane, class Before>
+HWY_INLINE Plane PlaneAfter(const BlockContext& c, const Before& before, int first, int step) {
+  if constexpr (std::is_same_v<Plane, TilePlane> && std::is_same_v<Before, TilePlane>)
+    return Plane(c, first + step, before.table + step);
+  else
+    return Plane(c, first + step);
+}
 
 // The same for a plane without slope.
 struct LevelPlane {

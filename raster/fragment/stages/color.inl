@@ -3,13 +3,14 @@
 struct ColorConstant {
   static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   // Out here the compiler takes what is worked out from it, too, out of the loop.
-  template <class L>
-  struct Once {
+  struct Channels {
     VF color[4];
-    HWY_INLINE explicit Once(const BlockContext& c) {
+    HWY_INLINE explicit Channels(const BlockContext& c) {
       for (int k = 0; k < 4; ++k) color[k] = hn::Set(DF(), c.params->constant_color[k]);
     }
   };
+  template <class L>
+  using Once = Channels;
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int, Lanes& v) {
     for (int k = 0; k < 4; ++k) v.slot[kR + k] = once.color[k];
@@ -48,9 +49,9 @@ struct ColorSmooth {
     HWY_INLINE explicit Planes(const BlockContext& c)
         : inv_w(c, 1),
           r(c, c.params->color_plane),
-          g(c, c.params->color_plane + 1),
-          b(c, c.params->color_plane + 2),
-          a(c, c.params->color_plane + 3) {}
+          g(PlaneAfter<Plane>(c, r, c.params->color_plane, 1)),
+          b(PlaneAfter<Plane>(c, r, c.params->color_plane, 2)),
+          a(PlaneAfter<PlaneOfAlpha>(c, r, c.params->color_plane, 3)) {}
   };
   template <class L>
   using Once = Planes<std::conditional_t<kPacks, typename L::Plane, typename L::PlaneDouble>,

@@ -11,7 +11,7 @@ struct Coord {
     HWY_INLINE explicit Planes(const BlockContext& c)
         : divisor(c, kProjective ? c.params->tex_plane + 2 : 1),
           s(c, c.params->tex_plane),
-          t(c, c.params->tex_plane + 1) {}
+          t(PlaneAfter<Plane>(c, s, c.params->tex_plane, 1)) {}
   };
   template <class L>
   using Once = Planes<std::conditional_t<kPacks, typename L::Plane, typename L::PlaneDouble>>;
