@@ -345,6 +345,9 @@ void add_rounding(StageList& list) {
     StageId& last = list.ids[static_cast<size_t>(list.count - 1)];
     if (last == StageId::color_affine) last = StageId::color_affine_open;
     if (last == StageId::color_perspective) last = StageId::color_perspective_open;
+    const bool modulated = last == StageId::modulate_rgb || last == StageId::modulate_rgba;
+    StageId& color = list.ids[static_cast<size_t>(std::max(list.count - 2, 0))];
+    if (modulated && color == StageId::color_perspective_at_w) color = StageId::color_perspective_at_w_above;
   }
   list.add(StageId::round_rgba8);
 }

@@ -30,9 +30,12 @@ struct ColorFlat {
 // Beside the bits of Variant, as a template's argument: planes in float, but the divide in double.
 inline constexpr unsigned kPreciseDivide = 4;
 
+// To what range a colour is held. What is modulated by texels and then rounded need not be held from below: a product with
+// less than 0 rounds to 0, as one with 0 does.
+enum class Held { both_ways, from_above, not_at_all };
+
 // kVariant: bits of Variant. Perspective-correct: colour/w over 1/w, one divide a pixel; kAtW: none, w is there already.
-// kOpen: not held to the range, where what comes next does that.
-template <unsigned kVariant, bool kAtW = false, bool kOpen = false>
+template <unsigned kVariant, bool kAtW = false, Held kHeld = Held::both_ways>
 struct ColorSmooth {
   static constexpr bool kKills = false, kPacks = (kVariant & kDouble) == 0;
   static constexpr bool kDivides = (kVariant & kAffine) == 0;
@@ -84,7 +87,11 @@ struct ColorSmooth {
   }
 
  private:
-  static HWY_INLINE VF Clamp(VF x) { return kOpen ? x : hn::Min(hn::Max(x, hn::Zero(DF())), hn::Set(DF(), 255.0f)); }
+  static HWY_INLINE VF Clamp(VF x) {
+    if constexpr (kHeld == Held::both_ways) x = hn::Max(x, hn::Zero(DF()));
+    if constexpr (kHeld != Held::not_at_all) x = hn::Min(x, hn::Set(DF(), 255.0f));
+    return x;
+  }
   static HWY_INLINE VF InFloat(VF value, VF w) { return Clamp(kDivides ? hn::Mul(value, w) : value); }
   static HWY_INLINE VF InDouble(VD value, const VD& inv_w) {
     if constexpr (kDivides)
