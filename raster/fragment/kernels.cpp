@@ -139,12 +139,12 @@ constexpr unsigned TakenSlots() {
   return taken;
 }
 // What a stage has used up of what it reads: texels in the environment, coordinates in a lookup, the bytes in the write
-// that ends the list. Of colours, those that were rounded or written.
+// that ends the list. Of colours, those that were rounded or written; w is for whoever comes later.
 template <StageId id>
 constexpr unsigned UsedUp() {
   using Body = BodyOf<id>;
   const bool ends_color = Body::kWrites == kRounded || (Body::kWrites == kNone && !Body::Type::kKills);
-  return Body::kReads & (ends_color ? ~0u : ~unsigned{kColor});
+  return Body::kReads & (ends_color ? ~0u : ~unsigned{kColor}) & ~unsigned{kEyeDepth};
 }
 // Slots a run leaves for those after it: all it wrote, but not what a later one of the same run has used up.
 template <StageId... ids>
