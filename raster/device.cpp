@@ -13,8 +13,8 @@
 #include "raster/batch.h"
 #include "raster/primitive/assembly.h"
 #include "raster/primitive/index_part.h"
+#include "raster/primitive/packet_run.h"
 #include "raster/primitive/pixel_rect.h"
-#include "raster/primitive/point_run.h"
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/window_box.h"
 #include "raster/statistics.h"
@@ -34,6 +34,8 @@ constexpr uint32_t kPartPrimitives = 4096;  // a larger draw is taken in parts
 // With several threads draws are taken in larger parts, and more is kept back before it is executed: each
 // part and each execution is a meeting of threads.
 constexpr uint32_t kThreadedScale = 8;
+// Of points and lines, which are small: more of them would not stay in the cache.
+constexpr uint32_t kThreadedScaleOfPackets = 2;
 constexpr int kFewThreads = 4;
 constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
 constexpr uint32_t kVerticesPerTask = 2048;
@@ -119,7 +121,7 @@ struct Device::Impl {
   void report_stages(const LinearImage* image);
   void report_draw(const DeviceStatistics& before);
   void find_clip_distances(const VertexBatch& batch, DrawRecord& record);
-  void assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
+  bool assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void need_planes(const DrawState& state, const PipelineProgram& program);
   void note_targets(const DrawState& state, const PipelineProgram& program);
   void draw(const DrawPacket& packet);
@@ -199,13 +201,14 @@ void Device::Impl::find_clip_distances(const VertexBatch& batch, DrawRecord& rec
   record.clip_codes = clip_codes.data();
 }
 
-void Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives) {
+// Whether what was made of a draw whose lines are packets refers to its vertices.
+bool Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives) {
   // The stipple of a line starts where the one before it ended.
   if (!splits() || primitives < kParallelPrimitives || record.shape.stippled_lines) {
     Segment& segment = filling->open_segment(*target);
     assemble(record, packet.primitive, packet.indices, packet.index_count, 0, primitives, segment);
     stipple = segment.stipple_end;
-    return;
+    return segment.refers_to_vertices;
   }
   const auto parts = static_cast<uint32_t>(pool.size());
   const size_t first_segment = filling->segments().size();
@@ -216,6 +219,9 @@ void Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, u
     assemble(record, packet.primitive, packet.indices, packet.index_count, first,
              std::min(each, primitives - first), *filling->segments()[first_segment + part]);
   });
+  bool refers = false;
+  for (uint32_t i = 0; i < parts; ++i) refers |= filling->segments()[first_segment + i]->refers_to_vertices;
+  return refers;
 }
 
 // Asks the framebuffer for the planes that a draw works on. The tiles' workers must not see one come to be.
@@ -256,7 +262,8 @@ void Device::Impl::draw(const DrawPacket& packet) {
 void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout,
                                  const ShapePlan& shape, const PipelineProgram& program) {
   const uint32_t each = separate_vertices(packet.primitive);
-  const uint32_t step = each * kPartPrimitives * scale();
+  const bool small = packet.primitive == Primitive::points || packet.primitive == Primitive::lines;
+  const uint32_t step = each * kPartPrimitives * (small ? std::min(scale(), kThreadedScaleOfPackets) : scale());
   if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program);
   for (uint32_t first = 0; first < packet.index_count; first += step) {
     DrawPacket part = packet;
@@ -288,15 +295,17 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.edge_flags = packet.batch.edge_flag;
   record.stipple_start = packet.continues ? stipple : 0;
   record.vertices.layout = layout;
+  const uint32_t primitives = primitive_count(packet.primitive, packet.index_count);
   record.runs_points = points_run(record, packet.primitive) && !notes;
+  record.runs_lines = lines_run(record, packet.primitive, primitives) && !notes;
   if (points_run_unshaded(record, packet) && !meters)
     record.given_points = &packet.batch;
   else
     shade(packet, record.vertices);
   find_clip_distances(packet.batch, record);
-  assemble_draw(record, packet, primitive_count(packet.primitive, packet.index_count));
-  // Points in runs bring along all that is needed.
-  if (record.runs_points && record.given_points == nullptr)
+  const bool refers = assemble_draw(record, packet, primitives);
+  // Packets bring along all that is needed.
+  if ((record.runs_points && record.given_points == nullptr) || (record.runs_lines && !refers))
     filling->arena.take_back(size_t{packet.batch.count} * layout.stride());
   // Clip coordinates and outcodes have done their work; the next draw takes their memory.
   record.vertices.outcodes.swap(outcodes);

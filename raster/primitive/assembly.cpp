@@ -11,6 +11,7 @@
 #include "raster/primitive/triangle_filter.h"
 #include "raster/primitive/window_box.h"
 #include "raster/surface/framebuffer.h"
+#include "raster/tile/line_setup.h"
 #include "raster/vertex/vertex_stage.h"
 
 namespace halfspace::raster {
@@ -59,8 +60,8 @@ class Assembler {
     const bool cull_cw = front_is_ccw_ ? raster.cull_back : raster.cull_front;
     culled_from_ = cull_cw ? INT64_MIN : 0;
     culled_to_ = cull_ccw ? INT64_MAX : 0;
-    filter_ = {records_, stride_, draw.vertices.all_inside ? nullptr : outcodes_, bounds_, cull_cw, cull_ccw,
-               segment.tiles_x};
+    filter_ = {records_, stride_,        draw.vertices.all_inside ? nullptr : outcodes_, bounds_, cull_cw,
+               cull_ccw, segment.tiles_x};
   }
 
   template <class Pattern>
@@ -88,12 +89,10 @@ class Assembler {
   }
 
   void lines(Primitive mode, uint32_t first, uint32_t count) {
+    if (draw_.runs_lines) return run_lines(mode, first, count);
     for (uint32_t k = first; k < first + count; ++k) {
-      if (mode == Primitive::lines) {
-        line(vertex(2 * k), vertex(2 * k + 1));
-      } else {
-        line(vertex(k), vertex(k + 1 < index_count_ ? k + 1 : 0));
-      }
+      const LineVertices v = line_vertices(mode, k);
+      line(v.from, v.to);
     }
   }
 
@@ -103,7 +102,8 @@ class Assembler {
       const uint32_t v = vertex(k);
       int px, py;
       if (is_point_seen(v, px, py))
-        push_to_bin(segment_, px / kTileSize, py / kTileSize, append({{v, v, v}, PrimitiveKind::point, false, false, 0}));
+        push_to_bin(segment_, px / kTileSize, py / kTileSize,
+                    append({{v, v, v}, PrimitiveKind::point, false, false, 0}));
     }
   }
 
@@ -128,7 +128,8 @@ class Assembler {
       const auto lane = uint32_t(std::countr_zero(todo));
       const uint32_t* v = corners + 3 * lane;
       if (found.special >> lane & 1) {
-        cut_triangle({{v[0], v[1], v[2]}}, unsigned{outcodes_[v[0]]} | outcodes_[v[1]] | outcodes_[v[2]], provoking);
+        cut_triangle({{v[0], v[1], v[2]}}, unsigned{outcodes_[v[0]]} | outcodes_[v[1]] | outcodes_[v[2]],
+                     provoking);
       } else {
         bin_filtered(found, lane, v, provoking);
       }
@@ -193,7 +194,7 @@ class Assembler {
     const int32_t x[2] = {head(from).x, head(to).x}, y[2] = {head(from).y, head(to).y};
     const Rect box = line_box(x, y);
     if (box.empty() || (x[0] == x[1] && y[0] == y[1])) return;
-    bin_box(segment_, tile_box(box), append({{from, to, to}, PrimitiveKind::line, false, false, 1}));
+    bin_line(tile_box(box), {{from, to, to}, PrimitiveKind::line, false, false, 1});
   }
 
   void cut_line(uint32_t from, uint32_t to, unsigned any) {
@@ -208,8 +209,74 @@ class Assembler {
     const auto index = uint32_t(segment_.cut_triangles.size());
     segment_.plane_sources.push_back(planes);
     segment_.cut_triangles.push_back(cut);
-    bin_box(segment_, tile_box(box), append({{index, 0, cut.source}, PrimitiveKind::line, true, false, 0}));
+    bin_line(tile_box(box), {{index, 0, cut.source}, PrimitiveKind::line, true, false, 0});
   }
+
+  // A line that is no packet, where others may be.
+  void bin_line(const TileBox& tiles, const PrimitiveRef& ref) {
+    if (draw_.runs_lines) {
+      segment_.refers_to_vertices = true;
+      for (int ty = tiles.y0; ty <= tiles.y1; ++ty)
+        for (int tx = tiles.x0; tx <= tiles.x1; ++tx) segment_.packets.close(tile_at(tx, ty));
+    }
+    bin_box(segment_, tiles, append(ref));
+  }
+
+  struct LineVertices {
+    uint32_t from, to;
+  };
+  LineVertices line_vertices(Primitive mode, uint32_t k) const {
+    if (mode == Primitive::lines) return {vertex(2 * k), vertex(2 * k + 1)};
+    return {vertex(k), vertex(k + 1 < index_count_ ? k + 1 : 0)};
+  }
+
+  // Lines set up here, once for all tiles, as far as they are not cut.
+  void run_lines(Primitive mode, uint32_t first, uint32_t count) {
+    segment_.refers_to_vertices = false;
+    const size_t largest =
+        line_packet_bytes(1 + draw_.vertices.layout.attribute_count, draw_.program->reads_depth);
+    segment_.packets.start_draw(segment_.bins.size(), largest);
+    uint32_t ends[2 * kSetupLanes];
+    int waiting = 0;
+    for (uint32_t k = first; k < first + count; ++k) {
+      const LineVertices v = line_vertices(mode, k);
+      const unsigned o0 = outcodes_[v.from], o1 = outcodes_[v.to];
+      if (((o0 & o1) | ((o0 | o1) & (kOutNotFinite | kOutCutMask))) != 0) [[unlikely]] {
+        bin_packets(ends, waiting);
+        waiting = 0;
+        line(v.from, v.to);
+        continue;
+      }
+      ends[2 * waiting] = v.from, ends[2 * waiting + 1] = v.to;
+      if (++waiting == kSetupLanes) bin_packets(ends, waiting), waiting = 0;
+    }
+    bin_packets(ends, waiting);
+    segment_.packet_bytes += segment_.packets.finish_draw();
+  }
+
+  void bin_packets(const uint32_t* ends, int count) {
+    if (count == 0) return;
+    LineGroup group;
+    set_up_lines_(draw_, ends, count, group);
+    for (int lane = 0; lane < count; ++lane) {
+      if (!group.is_drawn(lane)) continue;
+      if (group.needs_double(lane)) {
+        line(ends[2 * lane], ends[2 * lane + 1]);
+        continue;
+      }
+      for (int ty = group.tile_y0[lane]; ty <= group.tile_y1[lane]; ++ty)
+        for (int tx = group.tile_x0[lane]; tx <= group.tile_x1[lane]; ++tx)
+          bin_packet(group, lane, tile_at(tx, ty));
+    }
+  }
+
+  void bin_packet(const LineGroup& group, int lane, uint32_t tile) {
+    PacketBin& bin = segment_.packets.bins()[tile];
+    if (size_t(bin.limit - bin.next) < segment_.packets.largest()) open_run(tile, PrimitiveKind::line_run);
+    bin.next = group.write(lane, bin.next);
+  }
+
+  uint32_t tile_at(int tx, int ty) const { return uint32_t(ty * segment_.tiles_x + tx); }
 
   bool is_point_seen(uint32_t v, int& px, int& py) const {
     px = head(v).x >> kSubpixelBits, py = head(v).y >> kSubpixelBits;
@@ -218,34 +285,34 @@ class Assembler {
 
   // A tile's points follow each other in memory, whatever came between.
   void run_points(uint32_t first, uint32_t count) {
-    PointBins& points = segment_.points;
-    points.start_draw(segment_.bins.size());
+    segment_.packets.start_draw(segment_.bins.size(), sizeof(PointPacket));
     if (draw_.given_points != nullptr)
       place_points(*draw_.state, *draw_.given_points, draw_.vertices.layout, point_job(), first, count);
     else
       run_shaded_points(first, count);
-    segment_.point_count += points.finish_draw();
+    segment_.packet_bytes += segment_.packets.finish_draw();
   }
 
   PointJob point_job() {
     const auto open = [](void* assembler, uint32_t tile) {
-      static_cast<Assembler*>(assembler)->open_run(tile);
+      static_cast<Assembler*>(assembler)->open_run(tile, PrimitiveKind::point_run);
     };
     const double depth_steps = draw_.program->reads_depth ? double(kDepthMax) : 0;
-    return {bounds_, segment_.tiles_x, depth_steps, segment_.points.bins(), open, this};
+    return {bounds_, segment_.tiles_x, depth_steps, segment_.packets.bins(), open, this};
   }
 
   void run_shaded_points(uint32_t first, uint32_t count) {
     const int color = draw_.vertices.layout.color;
-    PointBin* bins = segment_.points.bins();
+    PacketBin* bins = segment_.packets.bins();
     for (uint32_t k = first; k < first + count; ++k) {
       const uint32_t v = vertex(k);
       int px, py;
       if (!is_point_seen(v, px, py)) continue;
       const size_t tile = size_t(py / kTileSize) * size_t(segment_.tiles_x) + size_t(px / kTileSize);
-      PointBin& bin = bins[tile];
-      if (bin.next == bin.limit) open_run(uint32_t(tile));
-      PointPacket& point = *bin.next++;
+      PacketBin& bin = bins[tile];
+      if (bin.next == bin.limit) open_run(uint32_t(tile), PrimitiveKind::point_run);
+      auto& point = *reinterpret_cast<PointPacket*>(bin.next);
+      bin.next += sizeof point;
       point.offset = tile_offset(px, py);
       point.depth = int32_t(head(v).z * double(kDepthMax) + 0.5);
       if (color >= 0)
@@ -253,10 +320,9 @@ class Assembler {
     }
   }
 
-  void open_run(uint32_t tile) {
-    const uint32_t run = segment_.points.open(tile);
-    push_to_bin(segment_, int(tile) % segment_.tiles_x, int(tile) / segment_.tiles_x,
-                append({{run, 0, 0}, PrimitiveKind::point_run, false, false, 0}));
+  void open_run(uint32_t tile, PrimitiveKind kind) {
+    const uint32_t run = segment_.packets.open(tile);
+    push_to_bin(segment_, tile, append({{run, 0, 0}, kind, false, false, 0}));
   }
 
   const DrawRecord& draw_;
@@ -271,6 +337,7 @@ class Assembler {
   int64_t culled_from_, culled_to_;  // signed areas that are dropped; 0 always is
   TriangleFilter filter_;
   Clipper clipper_;
+  SetUpLinesFunction set_up_lines_ = set_up_lines();
 };
 
 // Idempotent, so that a draw may come in several ranges.

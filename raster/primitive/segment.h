@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "raster/api/draw_packet.h"
-#include "raster/primitive/point_bins.h"
+#include "raster/primitive/packet_bins.h"
 #include "raster/primitive/shape_plan.h"
 #include "raster/vertex/shaded_vertices.h"
 
@@ -36,9 +36,9 @@ struct CutTriangle {
   uint32_t source;     // index of its PlaneSource
 };
 
-// A smooth triangle makes a fragment wherever it touches a pixel. A run is of points that are all in one
-// tile: v[0] is its index in the segment's `points`.
-enum class PrimitiveKind : uint8_t { triangle, smooth_triangle, line, point, point_run };
+// A smooth triangle makes a fragment wherever it touches a pixel. A run is of points or lines
+// on one tile that are packets: v[0] is its index in the segment's `packets`.
+enum class PrimitiveKind : uint8_t { triangle, smooth_triangle, line, point, point_run, line_run };
 
 struct PrimitiveRef {
   // Vertices of the draw, in submission order; the edge of a polygon has the polygon's provoking vertex last. Cut:
@@ -69,6 +69,7 @@ struct DrawRecord {
   const uint8_t* edge_flags = nullptr;
   uint32_t stipple_start = 0;  // where the first line's stipple starts
   bool runs_points = false;  // its points are binned as runs
+  bool runs_lines = false;   // its lines are, as far as they are not cut and floats will do
   // Where that is all its vertices are for: what they are made from, until the draw is assembled. There are
   // no records.
   const VertexBatch* given_points = nullptr;
@@ -88,8 +89,9 @@ struct Segment {
   std::vector<DrawStart> draws;  // ascending first_primitive
   std::vector<std::vector<uint32_t>> bins;  // tiles_x * tiles_y, row by row from the bottom
   std::vector<uint32_t> touched;            // tiles whose bin is not empty
-  PointBins points;
-  size_t point_count = 0;
+  PacketBins packets;
+  size_t packet_bytes = 0;
+  bool refers_to_vertices = false;  // of the last draw whose lines are packets: some are not
   int tiles_x = 0, tiles_y = 0;
   uint32_t stipple_end = 0;  // where the stipple of a line strip stands after the last draw
   uint64_t triangles_in = 0, culled = 0, clipped = 0;  // statistics
@@ -104,12 +106,12 @@ struct Segment {
       for (uint32_t t : touched) bins[t].clear();
     }
     touched.clear();
-    points.clear();
+    packets.clear();
     primitives.clear();
     cut_triangles.clear();
     plane_sources.clear();
     draws.clear();
-    point_count = 0;
+    packet_bytes = 0;
     triangles_in = culled = clipped = 0;
   }
 };

@@ -1,225 +1,65 @@
-// Lines of one pixel's width: which pixels they make fragments at, a vector of columns at a time, exactly as
-// raster/tile/cover_line.cpp has it pixel by pixel. Compiled once per ISA level.
-
-using LineInts = hn::Vec<DDi>;  // a line a lane
+// Lines of one pixel's width that are set up (line_setup.inl): a vector of columns at a time, whose fragments
+// wait with those of small triangles. Compiled once per ISA level.
 
 // A pixel a lane.
 using DLf = hn::CappedTag<float, 16>;
 using DLi = hn::RebindToSigned<DLf>;
 using PixelInts = hn::Vec<DLi>;
 inline constexpr int kPixelLanes = static_cast<int>(hn::MaxLanes(DLi()));
-inline constexpr int kPixelParts = kPixelLanes / kDoubleLanes;
 
-// A batch's lines as SetUp has them, but for what only triangles need: no order to be found, no edges, no
-// box. The third corner, at right angles (FindCorners), is made in registers.
-struct LineSetup {
-  alignas(64) int32_t x[2][kSetupLanes], y[2][kSetupLanes];  // the ends in the order they were given
+// What of a tile may be drawn on, along a line's longer axis and along the other.
+struct LineWindow {
+  int32_t u0, u1, v0, v1;
+};
 
-  HWY_INLINE void Copy(const VertexHead* from, const VertexHead* to, const QuadPlan& quads, int lane,
-                       SetupInput& in) {
-    x[0][lane] = from->x, y[0][lane] = from->y;
-    x[1][lane] = to->x, y[1][lane] = to->y;
-    // The lower end first, as Below() has it; chosen without a branch, which would be wrong every other time.
-    const int64_t swap = Place(*to) < Place(*from) ? 1 : 0;
-    const ptrdiff_t apart =
-        (reinterpret_cast<const std::byte*>(to) - reinterpret_cast<const std::byte*>(from)) * swap;
-    const auto* low = reinterpret_cast<const VertexHead*>(reinterpret_cast<const std::byte*>(from) + apart);
-    const auto* high = reinterpret_cast<const VertexHead*>(reinterpret_cast<const std::byte*>(to) - apart);
-    memcpy(&in.head[0][lane], low, sizeof *low);
-    memcpy(&in.head[1][lane], high, sizeof *high);
-    CopyQuads(low, quads, 0, lane, in);
-    CopyQuads(high, quads, 1, lane, in);
-  }
+// Fragments of neighbouring columns.
+struct LinePiece {
+  PixelInts x, y;  // the first `count` lanes
+  int count;
 
-  static HWY_INLINE void Spread(const QuadPlan& quads, int attributes, int i, SetupInput& in, CornerVectors& v) {
-    const DD d;
-    const DDi di;
-    const DDf df;
-    LineInts x[3], y[3];
-    hn::Vec<DDf> rest_x[3], rest_y[3];
-    for (int k = 0; k < 2; ++k) {
-      VD place, z, inv_w, rest;
-      hn::LoadInterleaved4(d, reinterpret_cast<const double*>(in.head[k] + i), place, z, inv_w, rest);
-      x[k] = LowHalf(di, place), y[k] = HighHalf(di, place);
-      rest_x[k] = LowHalf(df, rest), rest_y[k] = HighHalf(df, rest);
-      v.z[k] = z, v.inv_w[k] = inv_w;
-    }
-    v.z[2] = v.z[0], v.inv_w[2] = v.inv_w[0];
-    x[2] = hn::Sub(x[0], hn::Sub(y[1], y[0])), y[2] = hn::Add(y[0], hn::Sub(x[1], x[0]));
-    rest_x[2] = hn::Sub(rest_x[0], hn::Sub(rest_y[1], rest_y[0]));
-    rest_y[2] = hn::Add(rest_y[0], hn::Sub(rest_x[1], rest_x[0]));
-    for (int k = 0; k < 3; ++k) {
-      v.place_x[k] = x[k], v.place_y[k] = y[k];
-      v.x[k] = hn::PromoteTo(d, x[k]), v.y[k] = hn::PromoteTo(d, y[k]);
-      v.rest_x[k] = hn::PromoteTo(d, rest_x[k]), v.rest_y[k] = hn::PromoteTo(d, rest_y[k]);
-    }
-    for (int q = 0; q < quads.count; ++q) {
-      hn::Vec<DDf> quad[2][4];
-      for (int k = 0; k < 2; ++k)
-        hn::LoadInterleaved4(df, in.quad[k][q][i], quad[k][0], quad[k][1], quad[k][2], quad[k][3]);
-      for (int f = 0; f < 4; ++f) {
-        const int a = quads.Start(q) + f;
-        if (a < 4 * q || a >= attributes) continue;
-        for (int k = 0; k < 3; ++k) hn::Store(quad[k % 2][f], df, in.attribute[a][k] + i);
-      }
-    }
+  // In columns [column, end) of the window, of which a vector may hold a part.
+  HWY_INLINE LinePiece(const LinePacket& line, int column, int end, const LineWindow& window) {
+    const DLi d;
+    const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, column));
+    const auto v = Rows(line, column);
+    const hn::RebindToUnsigned<DLi> words;
+    const auto above = hn::BitCast(words, hn::Sub(v, hn::Set(d, window.v0)));
+    const auto inside = hn::Lt(above, hn::Set(words, static_cast<uint32_t>(window.v1 - window.v0)));
+    const auto live = hn::And(hn::RebindMask(d, inside), hn::Lt(u, hn::Set(d, end)));
+    const auto steep = hn::MaskFromVec(hn::Set(d, line.steep() ? -1 : 0));
+    x = ToTheFront(hn::IfThenElse(steep, v, u), live);
+    y = ToTheFront(hn::IfThenElse(steep, u, v), live);
+    count = static_cast<int>(hn::CountTrue(d, live));
   }
 
  private:
-  static HWY_INLINE int64_t Place(const VertexHead& v) { return (int64_t{v.y} << 32) + v.x; }
-};
-
-// A batch's lines on a tile, in 1/256 px from the tile's corner. u is along the longer axis, v along the
-// other. The diamond-exit rule (spec 3.4.1) as bounds on sums and differences of coordinates: the diamond |x
-// - cx| + |y - cy| < 1/2 is a square on the axes x + y and x - y, where the moved ends make one side of each
-// bound belong to it.
-struct LineWalk {
-  static constexpr int kHalf = kSubpixelScale / 2;
-  alignas(64) int32_t x0[kSetupLanes], y0[kSetupLanes];
-  alignas(64) int32_t sum[kSetupLanes], difference[kSetupLanes];  // dx + dy, dx - dy
-  alignas(64) int32_t steep[kSetupLanes];                         // -1 or 0
-  alignas(64) int32_t first[kSetupLanes], last[kSetupLanes];      // columns of pixels
-  // v at the middle of column `first`, and from column to column, times pitch; a pixel is a pitch.
-  alignas(64) double start[kSetupLanes], step[kSetupLanes], pitch[kSetupLanes];
-  // 1: where the line runs exactly between two pixels, the one below has the fragment. Both diamonds touch
-  // the line with a corner, and the moved line passes through one of them.
-  alignas(64) double between_down[kSetupLanes];
-
-  HWY_INLINE void Find(const LineSetup& lines, int i, int tile_x, int tile_y, const Rect& limit) {
+  static HWY_INLINE PixelInts Rows(const LinePacket& line, int column) {
     const DD d;
-    const DDi di;
-    const LineInts zero = hn::Zero(di);
-    const LineInts ax = hn::Sub(hn::Load(di, lines.x[0] + i), hn::Set(di, tile_x * kSubpixelScale));
-    const LineInts ay = hn::Sub(hn::Load(di, lines.y[0] + i), hn::Set(di, tile_y * kSubpixelScale));
-    const LineInts dx = hn::Sub(hn::Load(di, lines.x[1] + i), hn::Load(di, lines.x[0] + i));
-    const LineInts dy = hn::Sub(hn::Load(di, lines.y[1] + i), hn::Load(di, lines.y[0] + i));
-    const LineInts width = hn::Max(dx, hn::Neg(dx)), height = hn::Max(dy, hn::Neg(dy));
-    const auto is_steep = hn::Gt(height, width);
-    const LineInts u0 = hn::IfThenElse(is_steep, ay, ax), v0 = hn::IfThenElse(is_steep, ax, ay);
-    const LineInts du = hn::IfThenElse(is_steep, dy, dx), dv = hn::IfThenElse(is_steep, dx, dy);
-    const LineInts length = hn::Max(width, height);
-    const LineInts rise = hn::IfThenElse(hn::Lt(du, zero), hn::Neg(dv), dv);
-    const LineInts from = hn::IfThenElse(is_steep, hn::Set(di, limit.y0), hn::Set(di, limit.x0));
-    const LineInts to = hn::IfThenElse(is_steep, hn::Set(di, limit.y1 - 1), hn::Set(di, limit.x1 - 1));
-    const LineInts begin = hn::Max(ColumnBelow(hn::Min(u0, hn::Add(u0, du))), from);
-    const LineInts along = hn::Sub(hn::Add(hn::ShiftLeft<kSubpixelBits>(begin), hn::Set(di, kHalf)), u0);
-    hn::Store(ax, di, x0 + i);
-    hn::Store(ay, di, y0 + i);
-    hn::Store(hn::Add(dx, dy), di, sum + i);
-    hn::Store(hn::Sub(dx, dy), di, difference + i);
-    hn::Store(hn::VecFromMask(di, is_steep), di, steep + i);
-    hn::Store(begin, di, first + i);
-    hn::Store(hn::Min(ColumnBelow(hn::Max(u0, hn::Add(u0, du))), to), di, last + i);
-    // Integers below 2^50.
-    const VD long_side = hn::PromoteTo(d, length), climb = hn::PromoteTo(d, rise);
-    const VD pixel = hn::Set(d, static_cast<double>(kSubpixelScale));
-    hn::Store(hn::Add(hn::Mul(hn::PromoteTo(d, v0), long_side), hn::Mul(climb, hn::PromoteTo(d, along))), d,
-              start + i);
-    hn::Store(hn::Mul(climb, pixel), d, step + i);
-    hn::Store(hn::Mul(long_side, pixel), d, pitch + i);
-    // Steep, or level, or falling to the right.
-    const LineInts falls =
-        hn::Or(hn::VecFromMask(di, is_steep),
-               hn::Or(hn::VecFromMask(di, hn::Eq(dy, zero)), hn::BroadcastSignBit(hn::Xor(dx, dy))));
-    hn::Store(hn::Neg(hn::PromoteTo(d, falls)), d, between_down + i);
-  }
-
-  // The rows of columns [column, column + kPixelLanes). A quotient that is no integer is further from the
-  // next than it is rounded by: rows are below 2^18, pitch below 2^33.
-  HWY_INLINE PixelInts Rows(int lane, int column) const {
-    const DD d;
-    const VD height = hn::Set(d, pitch[lane]);
-    LineInts rows[kPixelParts];
-    for (int p = 0; p < kPixelParts; ++p) {
-      const VD index =
-          hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(column - first[lane] + p * kDoubleLanes)));
-      const VD place = hn::Add(hn::Set(d, start[lane]), hn::Mul(hn::Set(d, step[lane]), index));
-      const VD row = hn::Floor(hn::Div(place, height));
-      const auto between = hn::Eq(hn::Mul(row, height), place);
-      rows[p] =
-          hn::DemoteTo(DDi(), hn::Sub(row, hn::IfThenElseZero(between, hn::Set(d, between_down[lane]))));
-    }
-#if HWY_TARGET == HWY_SCALAR
-    return rows[0];
+    const VD at = hn::Set(d, line.place + line.step * static_cast<double>(column - line.first));
+    const VD step = hn::Set(d, line.step);
+#if HWY_TARGET == HWY_AVX3
+    const auto rows = [&](VD index) HWY_ATTR {
+      const VD place = hn::Add(at, hn::Mul(step, index));
+      return hn::Vec<DDi>{_mm512_cvt_roundpd_epi32(place.raw, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)};
+    };
 #else
-    return hn::Combine(DLi(), rows[1], rows[0]);
+    const auto rows = [&](VD index) HWY_ATTR {
+      return hn::DemoteTo(DDi(), hn::Floor(hn::Add(at, hn::Mul(step, index))));
+    };
+#endif
+#if HWY_TARGET == HWY_SCALAR
+    return rows(hn::Iota(d, 0));
+#else
+    static_assert(kPixelLanes == 2 * kDoubleLanes);
+    return hn::Combine(DLi(), rows(hn::Iota(d, kDoubleLanes)), rows(hn::Iota(d, 0)));
 #endif
   }
-
-  // Whether the segment reaches into the pixels' diamonds, and leaves them.
-  HWY_INLINE hn::Mask<DLi> MakesFragments(int lane, PixelInts x, PixelInts y) const {
-    const DLi d;
-    const auto to_x = hn::Sub(hn::Set(d, x0[lane] - kHalf), hn::ShiftLeft<kSubpixelBits>(x));
-    const auto to_y = hn::Sub(hn::Set(d, y0[lane] - kHalf), hn::ShiftLeft<kSubpixelBits>(y));
-    const auto a = hn::Add(to_x, to_y), b = hn::Sub(to_x, to_y);
-    const int32_t s = sum[lane], t = difference[lane];
-    const auto reaches =
-        hn::And(Within(a, s < 0 ? s : 0, s > 0 ? s : 0), Within(b, t < 0 ? t : 0, t > 0 ? t : 0));
-    const auto ends = hn::And(Within(a, s, s), Within(b, t, t));
-    return hn::AndNot(ends, reaches);
-  }
-
- private:
-  static HWY_INLINE LineInts ColumnBelow(LineInts u) {
-    const DDi d;
-    return hn::Sub(hn::ShiftRight<kSubpixelBits>(hn::Add(u, hn::Set(d, kSubpixelScale - 1))), hn::Set(d, 1));
-  }
-  static HWY_INLINE hn::Mask<DLi> Within(PixelInts v, int32_t least, int32_t most) {
-    const DLi d;
-    return hn::And(hn::Gt(v, hn::Set(d, -kHalf - most)), hn::Lt(v, hn::Set(d, kHalf + 1 - least)));
-  }
-};
-
-// Neighbouring fragments of a line, at most a vector of them.
-struct alignas(64) LinePiece {
-  static constexpr int kMost = 16;
-  int32_t x[kMost], y[kMost];  // behind the last: what a register held
-  int lane, count;
-};
-
-// The pieces of a batch's lines on the tile, in their order. They are all found before the first is drawn:
-// how many fragments there are decides where the queue is full, and the processor must not wait with its
-// guess for the division.
-struct LinePieces {
-  static constexpr int kMost = kSetupLanes * (kTileSize / kPixelLanes);
-  LinePiece piece[kMost];
-  int count = 0;
-
-  // `limit`: the pixels that may be drawn, relative to the tile.
-  HWY_INLINE void Find(const LineSetup& lines, int line_count, int tile_x, int tile_y, const Rect& limit) {
-    LineWalk walk;
-    for (int i = 0; i < line_count; i += kDoubleLanes) walk.Find(lines, i, tile_x, tile_y, limit);
-    for (int lane = 0; lane < line_count; ++lane) Add(walk, lane, limit);
-  }
-
- private:
   static HWY_INLINE PixelInts ToTheFront(PixelInts v, hn::Mask<DLi> live) {
 #if HWY_TARGET == HWY_AVX2
     return Squeeze(live)(v);
 #else
     return hn::Compress(v, live);
 #endif
-  }
-
-  HWY_INLINE void Add(const LineWalk& walk, int lane, const Rect& limit) {
-    const DLi d;
-    const bool is_steep = walk.steep[lane] != 0;
-    const auto steep = hn::MaskFromVec(hn::Set(d, walk.steep[lane]));
-    const auto low = hn::Set(d, is_steep ? limit.x0 : limit.y0),
-               high = hn::Set(d, is_steep ? limit.x1 : limit.y1);
-    const auto end = hn::Set(d, walk.last[lane] + 1);
-    for (int column = walk.first[lane]; column <= walk.last[lane]; column += kPixelLanes) {
-      const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, column)), v = walk.Rows(lane, column);
-      const auto x = hn::IfThenElse(steep, v, u), y = hn::IfThenElse(steep, u, v);
-      const auto inside = hn::And(hn::Lt(u, end), hn::AndNot(hn::Lt(v, low), hn::Lt(v, high)));
-      const auto live = hn::And(inside, walk.MakesFragments(lane, x, y));
-      LinePiece& to = piece[count];
-      hn::Store(ToTheFront(x, live), d, to.x);
-      hn::Store(ToTheFront(y, live), d, to.y);
-      to.lane = lane;
-      to.count = static_cast<int>(hn::CountTrue(d, live));
-      count += to.count > 0 ? 1 : 0;
-    }
   }
 };
 
@@ -234,95 +74,211 @@ HWY_INLINE uint64_t RectBlocks(int x0, int y0, int x1, int y1) {
 }
 
 // With a depth test, a vector of the queue's length at a time; its lanes beyond the last stand for the first.
-HWY_NOINLINE void TestAndPackPiece(TileContext& t, const LinePiece& piece, uint32_t* depth) {
+HWY_NOINLINE void TestAndPackPiece(TileContext& t, const LinePiece& piece, unsigned variant) {
   const DIq d;
+  alignas(64) int32_t px[kPixelLanes], py[kPixelLanes];
+  hn::Store(hn::And(piece.x, hn::Set(DLi(), kTileSize - 1)), DLi(), px);
+  hn::Store(hn::And(piece.y, hn::Set(DLi(), kTileSize - 1)), DLi(), py);
+  const int last = piece.count - 1;
+  uint32_t* depth = PreparePacking(t, variant, piece.count, RectBlocks(px[0], py[0], px[last], py[last]));
   for (int i = 0; i < piece.count; i += kQueueLanes) {
     const auto taken = hn::Lt(hn::Iota(d, 0), hn::Set(d, piece.count - i));
-    const auto x = hn::IfThenElse(taken, hn::Load(d, piece.x + i), hn::Set(d, piece.x[i]));
-    const auto y = hn::IfThenElse(taken, hn::Load(d, piece.y + i), hn::Set(d, piece.y[i]));
-    t.packer.AppendGroup(t.setup, piece.lane, x, y, piece.count - i, *t.program, t.plane_count, depth);
+    const auto x = hn::IfThenElse(taken, hn::Load(d, px + i), hn::Set(d, px[i]));
+    const auto y = hn::IfThenElse(taken, hn::Load(d, py + i), hn::Set(d, py[i]));
+    t.packer.AppendGroup(t.setup, 0, x, y, piece.count - i, *t.program, t.plane_count, depth);
   }
 }
 
-void PackPiece(TileContext& t, const LinePiece& piece) {
-  const SetupBatch& s = t.setup;
+// Lets what waits be shaded as soon as that fills whole vectors; the rest stays.
+HWY_NOINLINE void ShadeWholeQueue(TileContext& t) {
+  const DLf f;
+  const DLi d;
   PixelQueue& queue = t.packer.queue;
-  const int lane = piece.lane, last = piece.count - 1;
-  const unsigned variant = s.variant[lane];
-  uint32_t* depth = PreparePacking(t, variant, piece.count,
-                                   RectBlocks(piece.x[0], piece.y[0], piece.x[last], piece.y[last]));
-  const int before = queue.count;
-  if (depth != nullptr) {
-    TestAndPackPiece(t, piece, depth);
-  } else {
-    const DLi d;
-    const DLf f;
-    const auto x = hn::Load(d, piece.x), y = hn::Load(d, piece.y);
-    const auto dx = hn::Add(hn::ConvertTo(f, x), hn::Set(f, static_cast<float>(s.anchor_x[lane])));
-    const auto dy = hn::Add(hn::ConvertTo(f, y), hn::Set(f, static_cast<float>(s.anchor_y[lane])));
-    for (int p = (variant & kAffine) != 0 ? 2 : 1; p < t.plane_count; ++p) {
-      const auto row = hn::Add(hn::Set(f, s.f0_f[p][lane]), hn::Mul(hn::Set(f, s.dfdy_f[p][lane]), dy));
-      hn::StoreU(hn::Add(row, hn::Mul(hn::Set(f, s.dfdx_f[p][lane]), dx)), f, queue.plane[p] + before);
-    }
-    const auto high = hn::Set(d, 56), low = hn::Set(d, 7);
-    const auto block = hn::Add(hn::ShiftLeft<6>(hn::And(y, high)), hn::ShiftLeft<3>(hn::And(x, high)));
-    const auto offset = hn::Add(block, hn::Add(hn::ShiftLeft<3>(hn::And(y, low)), hn::And(x, low)));
-    hn::StoreU(offset, d, queue.offset + before);
-    queue.count = before + piece.count;
-    // Every other pixel is in the cache line of its neighbour.
-    const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
-    for (int i = 0; i < kPixelLanes; i += 2) __builtin_prefetch(color + queue.offset[before + i], 1);
+  const int rest = queue.count - PixelQueue::kCapacity;
+  queue.count = PixelQueue::kCapacity;
+  ShadePacked(t);
+  queue.count = rest;
+  for (int i = 0; i < rest; i += kPixelLanes) {
+    for (int p = 1; p < t.plane_count; ++p)
+      hn::Store(hn::Load(f, queue.plane[p] + PixelQueue::kCapacity + i), f, queue.plane[p] + i);
+    hn::Store(hn::Load(d, queue.offset + PixelQueue::kCapacity + i), d, queue.offset + i);
   }
-  if (t.flat_color) t.packer.SetFlatColor(s, lane, t.program->params.color_plane, before);
 }
 
-// Whether the batch is of lines that go one after the other through the queue of waiting fragments.
+// Puts a line's fragments into the queue, behind the first `count` of it. `first`: of the planes that follow
+// the packet.
+HWY_INLINE void QueuePiece(const LinePacket& line, const LinePiece& piece, int first, int plane_count,
+                           const uint32_t* color, int count, PixelQueue& queue) {
+  const DLi d;
+  const DLf f;
+  const auto dx = hn::Add(hn::ConvertTo(f, piece.x), hn::Set(f, line.anchor_x));
+  const auto dy = hn::Add(hn::ConvertTo(f, piece.y), hn::Set(f, line.anchor_y));
+  const auto* planes = reinterpret_cast<const float*>(&line + 1);
+  const auto store = [&](int p) HWY_ATTR {
+    const float* plane = planes + 3 * (p - first);
+    const auto row = hn::Add(hn::Set(f, plane[0]), hn::Mul(hn::Set(f, plane[1]), dy));
+    hn::StoreU(hn::Add(row, hn::Mul(hn::Set(f, plane[2]), dx)), f, queue.plane[p] + count);
+  };
+  if (HWY_LIKELY(first == 2 && plane_count == 6)) {  // a colour
+    for (int p = 2; p < 6; ++p) store(p);
+  } else {
+    for (int p = first; p < plane_count; ++p) store(p);
+  }
+  const auto high = hn::Set(d, 56), low = hn::Set(d, 7);
+  const auto block =
+      hn::Add(hn::ShiftLeft<6>(hn::And(piece.y, high)), hn::ShiftLeft<3>(hn::And(piece.x, high)));
+  const auto offset = hn::Add(block, hn::Add(hn::ShiftLeft<3>(hn::And(piece.y, low)), hn::And(piece.x, low)));
+  hn::StoreU(offset, d, queue.offset + count);
+  // Every other pixel is in the cache line of its neighbour.
+  for (int i = 0; i < kPixelLanes; i += 2) __builtin_prefetch(color + queue.offset[count + i], 1);
+}
+
+// The planes of a line as lane 0 of a batch has them.
+void UnpackPlanes(const LinePacket& line, const float* planes, int plane_count, int tile_x, int tile_y,
+                  SetupBatch& s) {
+  double depth[3];
+  memcpy(depth, &line + 1, sizeof depth);
+  s.f0[0][0] = depth[0], s.dfdy[0][0] = depth[1], s.dfdx[0][0] = depth[2];
+  s.anchor_x[0] = static_cast<double>(line.anchor_x) + tile_x,
+  s.anchor_y[0] = static_cast<double>(line.anchor_y) + tile_y;
+  for (int p = (line.variant() & kAffine) != 0 ? 2 : 1; p < plane_count; ++p, planes += 3)
+    s.f0_f[p][0] = planes[0], s.dfdy_f[p][0] = planes[1], s.dfdx_f[p][0] = planes[2];
+}
+
+// What a tile's packets are drawn on, and which of a line's columns are.
+struct LineWindows {
+  LineWindow of[2];  // of lines that are not steep, and of those that are
+
+  HWY_INLINE explicit LineWindows(const TileContext& t) {
+    const Rect& limit = t.limit;
+    of[0] = {t.x + limit.x0, t.x + limit.x1, t.y + limit.y0, t.y + limit.y1};
+    of[1] = {of[0].v0, of[0].v1, of[0].u0, of[0].u1};
+  }
+  HWY_INLINE const LineWindow& Of(const LinePacket& line) const { return of[line.steep() ? 1 : 0]; }
+};
+HWY_INLINE int FirstColumn(const LinePacket& line, const LineWindow& w) {
+  return line.first > w.u0 ? line.first : w.u0;
+}
+HWY_INLINE int EndColumn(const LinePacket& line, const LineWindow& w) {
+  const int end = line.first + line.count();
+  return end < w.u1 ? end : w.u1;
+}
+HWY_INLINE const LinePacket& PacketAt(const std::byte* at) {
+  return *reinterpret_cast<const LinePacket*>(at);
+}
+
+// Lines without a depth test.
+void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
+  const LineWindows windows(t);
+  PixelQueue& queue = t.packer.queue;
+  const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
+  const int plane_count = t.plane_count;
+  int count = queue.count;  // in a register: stores of planes might be to the queue's
+  uint64_t fragments = 0;
+  for (; from < end; from += PacketAt(from).bytes()) {
+    const LinePacket& line = PacketAt(from);
+    const LineWindow& window = windows.Of(line);
+    const unsigned variant = line.variant();
+    if (HWY_UNLIKELY(t.packer.variant != variant)) {
+      queue.count = count;
+      FlushPacked(t);
+      count = 0;
+      t.packer.variant = variant;
+    }
+    const int last = EndColumn(line, window);
+    for (int column = FirstColumn(line, window); column < last; column += kPixelLanes) {
+      const LinePiece piece(line, column, last, window);
+      QueuePiece(line, piece, variant != 0 ? 2 : 1, plane_count, color, count, queue);
+      count += piece.count;
+      fragments += static_cast<uint64_t>(piece.count);
+      if (count >= PixelQueue::kCapacity) {
+        queue.count = count;
+        ShadeWholeQueue(t);
+        count = queue.count;
+      }
+    }
+  }
+  queue.count = count;
+  t.statistics->fragments += fragments;
+}
+
+// With one.
+void TestLines(TileContext& t, const std::byte* from, const std::byte* end) {
+  const LineWindows windows(t);
+  for (; from < end; from += PacketAt(from).bytes()) {
+    const LinePacket& line = PacketAt(from);
+    const LineWindow& window = windows.Of(line);
+    UnpackPlanes(line, reinterpret_cast<const float*>(&line + 1) + 6, t.plane_count, t.x, t.y, t.setup);
+    const int last = EndColumn(line, window);
+    for (int column = FirstColumn(line, window); column < last; column += kPixelLanes) {
+      const LinePiece piece(line, column, last, window);
+      if (piece.count != 0) TestAndPackPiece(t, piece, line.variant());
+    }
+  }
+}
+
+// Blocks of the tile that lines may have fragments in.
+uint64_t LineBlocks(const TileContext& t, const std::byte* from, const std::byte* end) {
+  const LineWindows windows(t);
+  uint64_t blocks = 0;
+  for (; from < end; from += PacketAt(from).bytes()) {
+    const LinePacket& line = PacketAt(from);
+    const LineWindow& w = windows.Of(line);
+    const int first = FirstColumn(line, w) - w.u0, last = EndColumn(line, w) - 1 - w.u0;
+    if (last < first) continue;
+    const auto row = [&](int column) HWY_ATTR {
+      const int v =
+          static_cast<int>(line.place + line.step * static_cast<double>(column + w.u0 - line.first)) - w.v0;
+      const int high = w.v1 - 1 - w.v0;
+      return v < 0 ? 0 : (v < high ? v : high);
+    };
+    const Rect& l = t.limit;
+    blocks |= line.steep() ? RectBlocks(l.x0 + row(first), l.y0 + first, l.x0 + row(last), l.y0 + last)
+                           : RectBlocks(l.x0 + first, l.y0 + row(first), l.x0 + last, l.y0 + row(last));
+  }
+  return blocks;
+}
+
+// Packets from `from` on, up to `end`.
+void RunLinePackets(TileContext& t, const std::byte* from, const std::byte* end) {
+  if (t.program->reads_depth) return TestLines(t, from, end);
+  // Of many lines it would take longer to see where they lie.
+  if (t.state->color[t.program->plane].is_clear != 0) PrepareWindow(t, LineBlocks(t, from, end));
+  t.packer.blocks = ~uint64_t{0};
+  StreamLines(t, from, end);
+}
+
+HWY_INLINE bool IsLineRun(const Segment& segment, uint32_t id) {
+  return segment.primitives.data()[id].kind == PrimitiveKind::line_run;
+}
+
+void RunLines(TileContext& t, const Segment& segment, uint32_t id) {
+  const PacketRun& run = segment.packets.runs.data()[segment.primitives.data()[id].v[0]];
+  RunLinePackets(t, run.packets, run.packets + run.bytes);
+}
+
+// Whether the batch is of lines that may be packets.
 HWY_INLINE bool ArePlainLines(const TileContext& t, const Segment& segment, const DrawRecord& draw,
                               const uint32_t* ids, int count) {
   const PrimitiveRef* refs = segment.primitives.data();
-  if (refs[ids[0]].kind != PrimitiveKind::line) return false;
-  const VertexLayout& layout = draw.vertices.layout;
-  if (!draw.shape.plain_lines() || !t.program->packs || t.notes != nullptr || layout.back_color >= 0 ||
-      layout.low >= 0)
-    return false;
+  if (refs[ids[0]].kind != PrimitiveKind::line || t.notes != nullptr || !lines_wait(draw)) return false;
   for (int lane = 0; lane < count; ++lane)
     if (refs[ids[lane]].kind != PrimitiveKind::line || refs[ids[lane]].cut) return false;
   return true;
 }
 
-// Draws the batch, up to the first line whose planes have to be double; returns where it stopped.
-int RunPlainLines(TileContext& t, const Segment& segment, const DrawRecord& draw, const uint32_t* ids,
-                  int count) {
-  const DD d;
-  const VertexLayout& layout = draw.vertices.layout;
-  const FragmentParams& params = t.program->params;
-  const QuadPlan quads(layout.attribute_count);
-  LineSetup lines;
-  for (int lane = 0; lane < count; ++lane) {
-    const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    lines.Copy(Head(draw.vertices, layout.stride(), ref.v[0]), Head(draw.vertices, layout.stride(), ref.v[1]),
-               quads, lane, t.input);
-  }
-  for (int lane = count; lane < kSetupLanes; ++lane)  // for what computes with whole vectors
-    for (int k = 0; k < 2; ++k) lines.x[k][lane] = lines.x[k][0], lines.y[k][lane] = lines.y[k][0];
-  const int32_t center_x = t.x * kSubpixelScale + kSubpixelScale / 2;
-  const int32_t center_y = t.y * kSubpixelScale + kSubpixelScale / 2;
-  const VD cx = hn::Set(d, static_cast<double>(center_x)), cy = hn::Set(d, static_cast<double>(center_y));
-  for (int i = 0; i < count; i += kDoubleLanes) {
-    CornerVectors v;
-    LineSetup::Spread(quads, layout.attribute_count, i, t.input, v);
-    if (HWY_UNLIKELY(params.one_lambda)) StorePlaces(v, i, t.input);
-    SetAnchor(v, i, cx, cy, t.setup);
-    SetPlanes(t.input, layout, params, v, i, t.setup);
-  }
-  if (t.flat_color || params.one_lambda)
-    FinishLanes(segment, draw, ids, count, center_x, center_y, t.input, t.setup);
-  int packed = 0;
-  while (packed < count && Packs(t, packed)) ++packed;
-  LinePieces pieces;
-  pieces.Find(lines, packed, t.x, t.y, t.limit);
-  for (int i = 0; i < pieces.count; ++i) PackPiece(t, pieces.piece[i]);
-  return packed;
+// Lines that were not set up for all their tiles: edges of polygons, and those of small draws. Draws the batch, up to the
+// first line whose planes have to be double; returns where it stopped. The last vertex of each gives its flat colour.
+int RunPlainLines(TileContext& t, const DrawRecord& draw, const BatchRefs& refs, int count) {
+  LineGroup group;
+  MakeLines(draw, LineRecords{refs.at}, count, group);
+  alignas(64) std::byte packets[kSetupLanes * kMostLineBytes];
+  std::byte* end = packets;
+  int lane = 0;
+  for (; lane < count && !group.needs_double(lane); ++lane)
+    if (group.is_drawn(lane)) end = group.write(lane, end);
+  RunLinePackets(t, packets, end);
+  return lane;
 }
 
 // Which pixels those are, for the tests.
@@ -330,17 +286,24 @@ void ListLine(const LineEnds& ends, int tile_x, int tile_y, const Rect& bounds, 
   out.count = 0;
   const Rect cut = intersect(bounds, {tile_x, tile_y, tile_x + kTileSize, tile_y + kTileSize});
   if (cut.empty()) return;
-  LineSetup lines;
-  for (int lane = 0; lane < kSetupLanes; ++lane) {
-    lines.x[0][lane] = ends.x0, lines.y[0][lane] = ends.y0;
-    lines.x[1][lane] = ends.x1, lines.y[1][lane] = ends.y1;
-  }
-  LinePieces pieces;
-  pieces.Find(lines, 1, tile_x, tile_y, {cut.x0 - tile_x, cut.y0 - tile_y, cut.x1 - tile_x, cut.y1 - tile_y});
-  for (int i = 0; i < pieces.count; ++i) {
-    for (int j = 0; j < pieces.piece[i].count; ++j, ++out.count) {
-      out.x[out.count] = static_cast<uint8_t>(pieces.piece[i].x[j]);
-      out.y[out.count] = static_cast<uint8_t>(pieces.piece[i].y[j]);
+  const DDi d;
+  const LineColumns columns(
+      LineEndVectors{{hn::Set(d, ends.x0), hn::Set(d, ends.x1)}, {hn::Set(d, ends.y0), hn::Set(d, ends.y1)}});
+  const int count = hn::GetLane(columns.count), first = hn::GetLane(columns.first);
+  const bool steep = hn::GetLane(columns.steep) != 0;
+  const LinePacket line{hn::GetLane(columns.place),    hn::GetLane(columns.step), 0, 0, first,
+                        steep ? LinePacket::kSteep : 0};
+  const LineWindow window =
+      steep ? LineWindow{cut.y0, cut.y1, cut.x0, cut.x1} : LineWindow{cut.x0, cut.x1, cut.y0, cut.y1};
+  const int end = first + count < window.u1 ? first + count : window.u1;
+  for (int column = first > window.u0 ? first : window.u0; column < end; column += kPixelLanes) {
+    const LinePiece piece(line, column, end, window);
+    alignas(64) int32_t px[kPixelLanes], py[kPixelLanes];
+    hn::Store(piece.x, DLi(), px);
+    hn::Store(piece.y, DLi(), py);
+    for (int j = 0; j < piece.count; ++j, ++out.count) {
+      out.x[out.count] = static_cast<uint8_t>(px[j] - tile_x);
+      out.y[out.count] = static_cast<uint8_t>(py[j] - tile_y);
     }
   }
 }

@@ -99,11 +99,12 @@ void StreamPoints(TileContext& t, const PointPacket* points, uint32_t count, boo
 #endif
 
 void RunPoints(TileContext& t, const Segment& segment, const DrawRecord& draw, const PrimitiveRef& ref) {
-  const PointRun& run = segment.points.runs.data()[ref.v[0]];
-  const PointPacket* points = run.packets;
+  const PacketRun& run = segment.packets.runs.data()[ref.v[0]];
+  const auto* points = reinterpret_cast<const PointPacket*>(run.packets);
+  const uint32_t count = run.bytes / sizeof *points;
   const bool colored = draw.vertices.layout.color >= 0;
 #if HWY_TARGET != HWY_SCALAR
-  if (!t.program->reads_depth) return StreamPoints(t, points, run.count, colored);
+  if (!t.program->reads_depth) return StreamPoints(t, points, count, colored);
 #endif
-  for (uint32_t i = 0; i < run.count; ++i) RunPacket(t, points[i], colored);
+  for (uint32_t i = 0; i < count; ++i) RunPacket(t, points[i], colored);
 }

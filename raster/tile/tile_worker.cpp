@@ -3,10 +3,13 @@
 #include <string.h>
 
 #include "raster/isa.h"
+#include "raster/primitive/line_packet.h"
+#include "raster/primitive/packet_run.h"
 #include "raster/primitive/pixel_rect.h"
-#include "raster/primitive/point_run.h"
+#include "raster/primitive/point_packet.h"
 #include "raster/tile/cover_smooth.h"
 #include "raster/tile/coverage.h"
+#include "raster/tile/line_setup.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/tile/tile_worker.cpp"
@@ -21,6 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/exact_math.inl"
 #include "raster/tile/setup_gather.inl"
 #include "raster/tile/setup.inl"
+#include "raster/tile/line_setup.inl"
 #include "raster/tile/triangle.inl"
 #include "raster/tile/packing.inl"
 
@@ -146,15 +150,19 @@ HWY_INLINE uint64_t BlockMask(const TileContext& t, int block) {
 }
 
 // Shades what waits. Anything that draws otherwise does this first, so that order is kept.
-void FlushPacked(TileContext& t) {
+void ShadePacked(TileContext& t) {
   PixelQueue& queue = t.packer.queue;
-  if (queue.count == 0) return;
   BlockContext& c = t.block;
   c.queue = &queue;
   c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
   c.live = ~uint64_t{0} >> (kBlockPixels - queue.count);
   t.program->packed[t.packer.variant].run(c);
-  queue.count = 0;
+}
+
+void FlushPacked(TileContext& t) {
+  if (t.packer.queue.count == 0) return;
+  ShadePacked(t);
+  t.packer.queue.count = 0;
   t.packer.blocks = 0;
 }
 
@@ -367,6 +375,31 @@ HWY_INLINE int BatchCount(const uint32_t* ids, size_t at, size_t total, uint32_t
   return count;
 }
 
+// Primitives ids[at .. total) of a draw whose lines are packets for the most part, up to the primitive `end`. Gives where
+// it stopped.
+size_t RunLineDraw(TileContext& t, const Segment& segment, const DrawRecord& record, const uint32_t* ids, size_t at,
+                   size_t total, uint32_t end) {
+  const auto ends = [&](size_t i) HWY_ATTR { return i == total || ids[i] >= end; };
+  while (!ends(at)) {
+    if (IsLineRun(segment, ids[at])) {
+      RunLines(t, segment, ids[at++]);
+      continue;
+    }
+    int count = 1;
+    while (count < kSetupLanes && !ends(at + static_cast<size_t>(count)) &&
+           !IsLineRun(segment, ids[at + static_cast<size_t>(count)]))
+      ++count;
+    if (!t.input_is_clear) t.input.Clear();
+    t.input_is_clear = true;
+    BatchRefs refs;
+    refs.Read(segment, record.vertices, record.vertices.layout.stride(), ids + at, count);
+    SetUp(segment, record, ids + at, refs, count, t.x, t.y, t.limit, t.input, t.setup);
+    RunOneByOne(t, segment, record, ids + at, 0, count);
+    at += static_cast<size_t>(count);
+  }
+  return at;
+}
+
 void RunSegment(TileContext& t, const Segment& segment) {
   const auto& bin = segment.bins.data()[t.tile];
   const uint32_t* ids = bin.data();
@@ -388,6 +421,10 @@ void RunSegment(TileContext& t, const Segment& segment) {
       RunPoints(t, segment, record, segment.primitives.data()[ids[at++]]);
       continue;
     }
+    if (record.runs_lines) {
+      at = RunLineDraw(t, segment, record, ids, at, total, end);
+      continue;
+    }
     const size_t stride = record.vertices.layout.stride();
     int read = 0;  // how many primitives of the batch to come are known, in refs[now]
     while (at < total && ids[at] < end) {
@@ -406,17 +443,16 @@ void RunSegment(TileContext& t, const Segment& segment) {
       }
       if (!t.input_is_clear) t.input.Clear();  // lanes beyond a batch's count are computed with, though never used
       t.input_is_clear = true;
-      const bool lines = ArePlainLines(t, segment, record, ids + at, count);
       if (count != read) refs[now].Read(segment, record.vertices, stride, ids + at, count);
-      const int drawn = lines ? RunPlainLines(t, segment, record, ids + at, count) : 0;
-      if (!lines) SetUp(segment, record, ids + at, refs[now], count, t.x, t.y, t.limit, t.input, t.setup);
+      const int drawn = ArePlainLines(t, segment, record, ids + at, count) ? RunPlainLines(t, record, refs[now], count) : 0;
+      if (drawn < count) SetUp(segment, record, ids + at, refs[now], count, t.x, t.y, t.limit, t.input, t.setup);
       const size_t next = at + static_cast<size_t>(count);
       read = BatchCount(ids, next, total, ~0u);
       if (read > 0) {
         refs[1 - now].Read(segment, record.vertices, stride, ids + next, read);
         PrefetchCorners(segment, refs[1 - now], ids, next, total, read);
       }
-      if (!lines && refs[now].triangles) RunTriangles(t, 0, count);
+      if (refs[now].triangles) RunTriangles(t, 0, count);
       else RunOneByOne(t, segment, record, ids + at, drawn, count);
       now = 1 - now;
       at = next;
@@ -462,6 +498,8 @@ void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer
               TileStatistics& statistics) {
   select_run_tile()(segments, framebuffer, tile, next, statistics);
 }
+
+SetUpLinesFunction set_up_lines() { HALFSPACE_SELECT_FUNCTION(SetUpLines) }
 
 namespace {
 using ListLineFunction = void (*)(const LineEnds&, int, int, const Rect&, PixelList&);

@@ -68,7 +68,7 @@ struct PointJob {
   Rect bounds;  // in the framebuffer; points outside are not drawn
   int tiles_x;
   double depth_steps;  // the greatest depth; 0: nobody asks for depths
-  PointBin* bins;      // of each tile
+  PacketBin* bins;     // of each tile
   void (*open_run)(void* owner, uint32_t tile);
   void* owner;
 };

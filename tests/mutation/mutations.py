@@ -158,7 +158,7 @@ MUTATIONS = [
     Mutation("diamonds contain their boundary", "raster/tile/cover_line.cpp",
              "sign_moved(sx * (x - cx) + sy * (y - cy) - kHalf, sx, sy) >= 0", "sx * (x - cx) + sy * (y - cy) - kHalf > 0",
              "lines_test:DiamondExit.AllEndpointPairsOnASixteenthGrid"),
-    Mutation("a line ends with its last pixel", "raster/tile/lines.inl",
+    Mutation("a line ends with its last pixel", "raster/tile/line_setup.inl",
              "return hn::AndNot(ends, reaches);", "return hn::AndNot(hn::AndNot(ends, ends), reaches);",
              "lines_test:DiamondExit.*"),
     Mutation("stipple starts at its second bit", "raster/tile/cover_line.cpp",

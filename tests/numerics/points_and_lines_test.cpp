@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <span>
 #include <string>
 
 #include "tests/support/canvas.h"
@@ -110,6 +111,59 @@ TEST(Points, OutsideTheVolumeAreDiscarded) {
     }
   }
   for (uint8_t byte : canvas.read().rgba) ASSERT_EQ(int(byte), 0);
+}
+
+// Lines of every direction and of no length, within a pixel and beyond the framebuffer; some are cut, and of
+// some the floats would not do.
+std::vector<Vertex> mixed_lines(int count, int side, bool perspective) {
+  Random random(31);
+  const auto place = [&](int64_t low, int64_t high) {
+    const int64_t grid = random.integer(0, 3) == 0 ? 128 : 1;
+    return random.integer(low * 256 / grid, high * 256 / grid) * grid;
+  };
+  std::vector<Vertex> vertices;
+  for (int i = 0; i < count; ++i) {
+    int64_t x = place(-20, side + 20), y = place(-20, side + 20);
+    const int64_t reach = random.integer(0, 9) == 0 ? side : random.integer(1, 20);
+    for (int k = 0; k < 2; ++k) {
+      const Color color{random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
+      Vertex v = snapped_vertex(x, y, side, random.real(-1, random.integer(0, 9) == 0 ? 1.5f : 1), color);
+      if (perspective) {
+        const float w = random.integer(0, 9) == 0 ? 1e6f : random.real(1, 4);
+        v.x *= w, v.y *= w, v.z *= w, v.w = w;
+      }
+      vertices.push_back(v);
+      x += place(-reach, reach), y += place(-reach, reach);
+    }
+  }
+  return vertices;
+}
+
+// Of many lines packets are made, of one none: whatever is drawn between them, and wherever tiles and bounds
+// cut them.
+TEST(Lines, ManyAreThoseDrawnOneByOne) {
+  constexpr int kSide = 150;
+  for (int variant = 0; variant < 16; ++variant) {
+    DrawState state = variant & 8 ? plain_state(100, 90, 21, 33) : plain_state(kSide, kSide);
+    state.depth.test = variant & 1;
+    state.raster.flat_shading = variant & 2;
+    const std::vector<Vertex> lines = mixed_lines(600, kSide, variant & 4);
+    Canvas apart(kSide, kSide);
+    apart.clear();
+    for (size_t i = 0; i < lines.size(); i += 2)
+      apart.draw(state, Primitive::lines, std::span(lines).subspan(i, 2));
+    const Picture expected = apart.read();
+    for (const std::string& isa : isa_levels()) {
+      const IsaScope scope(isa);
+      for (const int threads : {1, 8}) {
+        Canvas canvas(kSide, kSide, threads);
+        canvas.clear();
+        canvas.draw(state, Primitive::lines, lines);
+        ASSERT_EQ(first_difference(canvas.read(), expected), "")
+            << isa << ", " << threads << " threads, " << variant;
+      }
+    }
+  }
 }
 
 // Spec 3.4.1: segments of a strip or a loop share their joints, and half-open segments draw a joint inside a

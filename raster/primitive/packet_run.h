@@ -1,4 +1,4 @@
-// Points of one pixel that take a short way to memory.
+// Points and lines of one pixel's width that take a short way to memory.
 #pragma once
 
 #include "raster/primitive/segment.h"
@@ -15,5 +15,12 @@ bool points_run(const DrawRecord& draw, Primitive mode);
 
 // Whether nothing but runs is made from their vertices, each of which is named once.
 bool points_run_unshaded(const DrawRecord& draw, const DrawPacket& packet);
+
+// Whether lines of such a draw wait with the fragments of small triangles; a line that is cut or takes
+// doubles does not.
+bool lines_wait(const DrawRecord& draw);
+
+// Whether a draw's lines are binned as runs, set up once for all tiles. Of a few lines it would save little.
+bool lines_run(const DrawRecord& draw, Primitive mode, uint32_t count);
 
 }  // namespace halfspace::raster

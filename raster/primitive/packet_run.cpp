@@ -1,4 +1,4 @@
-#include "raster/primitive/point_run.h"
+#include "raster/primitive/packet_run.h"
 
 #include "raster/fragment/program.h"
 
@@ -18,6 +18,19 @@ bool points_run(const DrawRecord& draw, Primitive mode) {
 bool points_run_unshaded(const DrawRecord& draw, const DrawPacket& packet) {
   return draw.runs_points && packet.indices == nullptr && !draw.state->lighting.enabled &&
          draw.state->accuracy.transform != Level::exact;
+}
+
+bool lines_wait(const DrawRecord& draw) {
+  const VertexLayout& layout = draw.vertices.layout;
+  return draw.program->packs && draw.shape.plain_lines() && layout.back_color < 0 && layout.low < 0 &&
+         !layout.projective && !draw.program->params.one_lambda;
+}
+
+bool lines_run(const DrawRecord& draw, Primitive mode, uint32_t count) {
+  constexpr uint32_t kFew = 8;
+  const bool lines =
+      mode == Primitive::lines || mode == Primitive::line_strip || mode == Primitive::line_loop;
+  return lines && count >= kFew && !draw.shape.general && lines_wait(draw);
 }
 
 }  // namespace halfspace::raster
