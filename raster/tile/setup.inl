@@ -468,9 +468,13 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
   const int32_t center_x = tile_x * kSubpixelScale + kSubpixelScale / 2;
   const int32_t center_y = tile_y * kSubpixelScale + kSubpixelScale / 2;
 #if HALFSPACE_DIRECT_CORNERS
-  // Vertices of their own, and the colours that come first.
-  if (HWY_LIKELY(refs.triangles && !refs.any_cut && !(refs.any_back && layout.back_color >= 0))) {
-    SetUpCorners(DirectCorners{refs.at}, segment, draw, ids, count, center_x, center_y, limit, in, out);
+  // With the colours that come first.
+  if (HWY_LIKELY(refs.triangles && !(refs.any_back && layout.back_color >= 0))) {
+    const auto set_up = [&](const auto& at) HWY_ATTR {
+      SetUpCorners(DirectCorners{at}, segment, draw, ids, count, center_x, center_y, limit, in, out);
+    };
+    if (HWY_LIKELY(!refs.any_cut)) set_up(refs.at);
+    else set_up(CutCorners(segment, refs, ids, count).at);
   } else
 #endif
   {

@@ -285,7 +285,7 @@ struct StagedCorners {
 };
 
 #if HALFSPACE_DIRECT_CORNERS
-// Corners of a batch of plain triangles where they lie: nothing is stored narrow to be read wide.
+// Corners of a batch of triangles where they lie: nothing is stored narrow to be read wide.
 struct DirectCorners {
   static constexpr bool kPlain = true;
   const unsigned char* const (&at)[3][kSetupLanes];
@@ -336,6 +336,36 @@ struct DirectCorners {
     out[0].raw = a, out[1].raw = b, out[2].raw = c, out[3].raw = e;
   }
 #endif
+};
+
+// Where the corners of a batch with cut triangles lie: theirs are made here. Nobody looks at their attributes.
+struct CutCorners {
+  struct Made {
+    alignas(64) uint64_t head[4];  // a VertexHead
+    float attributes[kMaxPlanes - 2];
+  };
+  alignas(64) const unsigned char* at[3][kSetupLanes];
+  Made made[3][kSetupLanes];
+
+  HWY_INLINE CutCorners(const Segment& segment, const BatchRefs& refs, const uint32_t* ids, int count) {
+    memcpy(at, refs.at, sizeof at);
+    for (int lane = 0; lane < kSetupLanes; ++lane) {
+      const PrimitiveRef& ref = segment.primitives.data()[ids[lane < count ? lane : 0]];
+      if (ref.cut) Make(segment.cut_triangles.data()[ref.v[0]], lane);
+    }
+  }
+
+ private:
+  HWY_INLINE void Make(const CutTriangle& cut, int lane) {
+    const __m256i rest = _mm256_castpd_si256(_mm256_setr_pd(0, 0, 1, 0));  // 1/w is 1
+    for (int k = 0; k < 3; ++k) {
+      const uint64_t place = static_cast<uint32_t>(cut.x[k]) | uint64_t{static_cast<uint32_t>(cut.y[k])} << 32;
+      const __m128i first = _mm_cvtsi64_si128(static_cast<int64_t>(place));
+      _mm256_store_si256(reinterpret_cast<__m256i*>(made[k][lane].head), _mm256_inserti128_si256(rest, first, 0));
+      _mm256_store_ps(made[k][lane].attributes, _mm256_setzero_ps());
+      at[k][lane] = reinterpret_cast<const unsigned char*>(&made[k][lane]);
+    }
+  }
 };
 #endif
 
