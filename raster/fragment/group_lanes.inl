@@ -38,7 +38,7 @@ struct GroupPlane {
   }
 };
 
-// Depth comes from products that the walk has left (FillGroupDepths in raster/tile/group_walk.inl).
+// Depth comes from products that the walk has left (FillColumnDepths, FillRowDepths in raster/tile/group_walk.inl).
 struct GroupPlaneDouble {
   const BlockContext& c;
   int plane;

@@ -158,12 +158,13 @@ class GroupBatch {
     lanes_ |= 1u << lane;
     blocks_ |= spans_.blocks[lane];
     const int left = t_.setup.min_x[lane] & ~(kBlockSize - 1), bottom = t_.setup.min_y[lane] & ~1;
+    const bool depth = stages.groups_depth != nullptr;
+    for (int x = 0; depth && x <= spans_.width[lane]; x += kSpanWidth)
+      FillColumnDepths(t_.setup, lane, left + x, t_.group_depths);
     for (int y = 0; y <= spans_.height[lane]; y += kSpanRows) {
-      for (int x = 0; x <= spans_.width[lane]; x += kSpanWidth) {
+      if (depth) FillRowDepths(t_.setup, lane, bottom + y, t_.group_depths);
+      for (int x = 0; x <= spans_.width[lane]; x += kSpanWidth)
         length_ = _mm512_add_epi32(length_, AddWindow(spans_, lane, x, y, list_));
-        if (stages.groups_depth != nullptr)
-          FillGroupDepths(t_.setup, lane, left + x, bottom + y, t_.group_depths);
-      }
     }
     return true;
   }

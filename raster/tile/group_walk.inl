@@ -115,13 +115,17 @@ struct GroupList {
 };
 
 #if HWY_TARGET == HWY_AVX3
-// Of the window that begins at (x, y) of the tile, x at a block: what groups of the primitive take their depth from.
-HWY_INLINE void FillGroupDepths(const SetupBatch& s, int lane, int x, int y, GroupDepths& out) {
+// What groups of the primitive take their depth from: of a window's columns from x of the tile on, x at a block, and of its
+// rows from y on.
+HWY_INLINE void FillColumnDepths(const SetupBatch& s, int lane, int x, GroupDepths& out) {
   const __m512d steps = _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7);
   for (int k = 0; k < GroupDepths::kColumns; k += 8) {
     const __m512d dx = _mm512_add_pd(steps, _mm512_set1_pd(s.anchor_x[lane] + (x + k)));
     _mm512_store_pd(out.across[lane] + x + k, _mm512_mul_pd(dx, _mm512_set1_pd(s.dfdx[0][lane])));
   }
+}
+HWY_INLINE void FillRowDepths(const SetupBatch& s, int lane, int y, GroupDepths& out) {
+  const __m512d steps = _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7);
   for (int k = 0; k < GroupDepths::kRows; k += 8) {
     const __m512d dy = _mm512_add_pd(steps, _mm512_set1_pd(s.anchor_y[lane] + (y + k)));
     const __m512d up = _mm512_mul_pd(dy, _mm512_set1_pd(s.dfdy[0][lane]));
@@ -277,8 +281,8 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
   }
   if (touched == 0) return;
 #if HWY_TARGET == HWY_AVX3
-  for (int at = 0; at < kTileSize; at += GroupDepths::kRows)
-    FillGroupDepths(s, lane, at / GroupDepths::kColumns * GroupDepths::kColumns, at, t.group_depths);
+  for (int x = 0; x < kTileSize; x += GroupDepths::kColumns) FillColumnDepths(s, lane, x, t.group_depths);
+  for (int y = 0; y < kTileSize; y += GroupDepths::kRows) FillRowDepths(s, lane, y, t.group_depths);
 #endif
   GroupList list(t.groups, lane);
   if (!t.masks_blocks) {
