@@ -236,44 +236,58 @@ class Assembler {
     const size_t largest =
         line_packet_bytes(1 + draw_.vertices.layout.attribute_count, draw_.program->reads_depth);
     segment_.packets.start_draw(segment_.bins.size(), largest);
-    uint32_t ends[2 * kSetupLanes];
-    int waiting = 0;
+    WaitingLines lines[2];
+    int now = 0;
+    const auto set_up = [&] {
+      if (lines[now].count != 0) set_up_lines_(draw_, lines[now].ends, lines[now].count, lines[now].group);
+      now = 1 - now;
+      bin_packets(lines[now]);
+    };
     for (uint32_t k = first; k < first + count; ++k) {
       const LineVertices v = line_vertices(mode, k);
       const unsigned o0 = outcodes_[v.from], o1 = outcodes_[v.to];
       if (((o0 & o1) | ((o0 | o1) & (kOutNotFinite | kOutCutMask))) != 0) [[unlikely]] {
-        bin_packets(ends, waiting);
-        waiting = 0;
+        set_up(), set_up();
         line(v.from, v.to);
         continue;
       }
-      ends[2 * waiting] = v.from, ends[2 * waiting + 1] = v.to;
-      if (++waiting == kSetupLanes) bin_packets(ends, waiting), waiting = 0;
+      WaitingLines& group = lines[now];
+      group.ends[2 * group.count] = v.from, group.ends[2 * group.count + 1] = v.to;
+      if (++group.count == kSetupLanes) set_up();
     }
-    bin_packets(ends, waiting);
+    set_up(), set_up();
     segment_.packet_bytes += segment_.packets.finish_draw();
   }
 
-  void bin_packets(const uint32_t* ends, int count) {
-    if (count == 0) return;
+  // A group is binned when the next one has been set up: what branches hang on is known by then.
+  struct WaitingLines {
     LineGroup group;
-    set_up_lines_(draw_, ends, count, group);
-    for (int lane = 0; lane < count; ++lane) {
+    uint32_t ends[2 * kSetupLanes];
+    int count = 0;
+  };
+
+  void bin_packets(WaitingLines& lines) {
+    const LineGroup& group = lines.group;
+    for (int lane = 0; lane < lines.count; ++lane) {
       if (!group.is_drawn(lane)) continue;
       if (group.needs_double(lane)) {
-        line(ends[2 * lane], ends[2 * lane + 1]);
+        line(lines.ends[2 * lane], lines.ends[2 * lane + 1]);
         continue;
       }
       for (int ty = group.tile_y0[lane]; ty <= group.tile_y1[lane]; ++ty)
         for (int tx = group.tile_x0[lane]; tx <= group.tile_x1[lane]; ++tx)
           bin_packet(group, lane, tile_at(tx, ty));
     }
+    lines.count = 0;
   }
 
   void bin_packet(const LineGroup& group, int lane, uint32_t tile) {
     PacketBin& bin = segment_.packets.bins()[tile];
     if (size_t(bin.limit - bin.next) < segment_.packets.largest()) open_run(tile, PrimitiveKind::line_run);
     bin.next = group.write(lane, bin.next);
+    // For the next one: many others come between.
+    __builtin_prefetch(bin.next, 1);
+    __builtin_prefetch(bin.next + 64, 1);
   }
 
   uint32_t tile_at(int tx, int ty) const { return uint32_t(ty * segment_.tiles_x + tx); }

@@ -239,11 +239,16 @@ uint64_t LineBlocks(const TileContext& t, const std::byte* from, const std::byte
   return blocks;
 }
 
+inline constexpr int kManyLines = 12;
+
 // Packets from `from` on, up to `end`.
 void RunLinePackets(TileContext& t, const std::byte* from, const std::byte* end) {
   if (t.program->reads_depth) return TestLines(t, from, end);
-  // Of many lines it would take longer to see where they lie.
-  if (t.state->color[t.program->plane].is_clear != 0) PrepareWindow(t, LineBlocks(t, from, end));
+  if (t.state->color[t.program->plane].is_clear != 0) {
+    // Many lines reach most of a tile, and to see where they lie would take longer than to store the rest.
+    const bool many = end - from >= kManyLines * static_cast<ptrdiff_t>(PacketAt(from).bytes());
+    PrepareWindow(t, many ? ~uint64_t{0} : LineBlocks(t, from, end));
+  }
   t.packer.blocks = ~uint64_t{0};
   StreamLines(t, from, end);
 }
@@ -267,8 +272,9 @@ HWY_INLINE bool ArePlainLines(const TileContext& t, const Segment& segment, cons
   return true;
 }
 
-// Lines that were not set up for all their tiles: edges of polygons, and those of small draws. Draws the batch, up to the
-// first line whose planes have to be double; returns where it stopped. The last vertex of each gives its flat colour.
+// Lines that were not set up for all their tiles: edges of polygons, and those of small draws. Draws the
+// batch, up to the first line whose planes have to be double; returns where it stopped. The last vertex of
+// each gives its flat colour.
 int RunPlainLines(TileContext& t, const DrawRecord& draw, const BatchRefs& refs, int count) {
   LineGroup group;
   MakeLines(draw, LineRecords{refs.at}, count, group);
