@@ -207,6 +207,14 @@ void close_loop(Context& context) {
   if (!im.materials.empty()) im.material_index[last] = uint32_t(im.materials.size() - 1);
 }
 
+// Whether `other` is what a vertex here would be, bit by bit.
+bool is_same(const ImmediateState& im, Quad position, const CurrentState& current, const float* other) {
+  QuadBits differs = difference(position, other) | difference(load_quad(current.color), other + 4);
+  if (im.format.tex_coord) differs |= difference(load_quad(current.tex_coord), other + 8);
+  if (im.format.normal) differs |= difference(load_quad(current.normal), other + im.format.normal);
+  return (differs[0] | differs[1]) == 0;
+}
+
 // Likewise.
 [[gnu::noinline]] void vertex_without_room(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
   if (make_room(context)) op::vertex(context, x, y, z, w);
@@ -304,12 +312,21 @@ void vertex(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
   if (v == im.limit) [[unlikely]]
     return vertex_without_room(context, x, y, z, w);
   const Quad position{x, y, z, w};
+  if (im.shared.active()) {
+    const SharedVertices::Place place = im.shared.look(position);
+    if (place.exists && is_same(im, position, context.current, vertex_at(im, place.slot))) {
+      im.shared.add_again(place);
+      if (im.shared.given() == im.most_given) [[unlikely]]
+        im.limit = im.cursor;
+      return;
+    }
+    im.shared.add_new(place);
+  }
   store_quad(position, v);
   store_quad(load_quad(context.current.color), v + 4);
   if (im.format.tex_coord) store_quad(load_quad(context.current.tex_coord), v + 8);
   if (im.format.normal) store_quad(load_quad(context.current.normal), v + im.format.normal);
-  if (!im.shared.active() || im.shared.add(position, v, im.buffer.data(), im.format.floats))
-    im.cursor = v + im.format.floats;
+  im.cursor = v + im.format.floats;
   if (im.shared.given() == im.most_given) [[unlikely]]
     im.limit = im.cursor;
   if (im.format.rare) [[unlikely]]

@@ -15,6 +15,12 @@ inline Quad load_quad(const float* v) {
   std::memcpy(&quad, v, sizeof quad);
   return quad;
 }
+// Zero where all bits are the same: 0 and -0 differ.
+using QuadBits [[gnu::vector_size(16)]] = uint64_t;
+inline QuadBits difference(Quad a, const float* b) {
+  return reinterpret_cast<QuadBits>(a) ^ reinterpret_cast<QuadBits>(load_quad(b));
+}
+
 inline void store_quad(Quad quad, float* v) { std::memcpy(v, &quad, sizeof quad); }
 
 }  // namespace halfspace::state

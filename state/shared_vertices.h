@@ -38,21 +38,25 @@ class SharedVertices {
     if (indices_.size() < count) indices_.resize(count);
   }
 
-  // Adds the vertex at `v`, which is behind the `distinct()` others that begin at `first`; true if it is to
-  // stay there. Vertices have `floats` numbers, 8, 12 or 16, of which the first four are `position`, and are
-  // compared bit by bit.
-  bool add(Quad position, const float* v, const float* first, uint32_t floats) {
+  // Where one of the last vertices with this position's hash stands, if there is one. An old batch's number
+  // is too large, or stands for a vertex that will be seen to differ.
+  struct Place {
+    uint16_t& slot;
+    bool exists;
+  };
+  Place look(Quad position) {
     uint16_t& slot = slots_[hash(position)];
-    const uint32_t found = slot;
-    // An old batch's number is too large, or stands for a vertex that will be seen to differ.
-    if (distinct_ - 1 - found < reach_ && same(position, v, first + size_t{found} * floats, floats)) {
-      indices_[given_++] = found;
-      repeats_ = true;
-      return false;
-    }
+    return {slot, distinct_ - 1 - slot < reach_};
+  }
+  // The vertex that was looked for is the one that stands there.
+  void add_again(Place place) {
+    indices_[given_++] = place.slot;
+    repeats_ = true;
+  }
+  // It is to stand behind all others.
+  void add_new(Place place) {
     indices_[given_++] = distinct_;
-    slot = static_cast<uint16_t>(distinct_++);
-    return true;
+    place.slot = static_cast<uint16_t>(distinct_++);
   }
 
   // Drops the last ones.
@@ -82,15 +86,6 @@ class SharedVertices {
   // Of so many vertices at least a quarter has to be found, or else so many are taken as they come.
   static constexpr uint32_t kTrial = 1024, kPause = 16 * kTrial;
 
-  using Bits [[gnu::vector_size(16)]] = uint64_t;
-  static Bits difference(Quad a, Quad b) { return reinterpret_cast<Bits>(a) ^ reinterpret_cast<Bits>(b); }
-  static bool same(Quad position, const float* v, const float* other, uint32_t floats) {
-    Bits differs =
-        difference(position, load_quad(other)) | difference(load_quad(v + 4), load_quad(other + 4));
-    if (floats > 8) differs |= difference(load_quad(v + 8), load_quad(other + 8));
-    if (floats > 12) differs |= difference(load_quad(v + 12), load_quad(other + 12));
-    return (differs[0] | differs[1]) == 0;
-  }
   static size_t hash(Quad position) {
     const auto word = [&](int i) { return std::bit_cast<uint32_t>(position[i]); };
     return (word(0) * 0x9e3779b1u + word(1) * 0x85ebca77u + word(2) * 0xc2b2ae3du) >> (32 - kSlotBits);
