@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace halfspace::raster {
 
-// A list that grows at its end and is emptied all at once. An object is assigned a fresh one when the list is
-// emptied, so that it holds on to nothing meanwhile.
+// A list that grows at its end and is emptied all at once. An object gives way to a fresh one when the list is
+// emptied, so that it holds on to nothing meanwhile; where it stands, since to move one there takes longer.
 template <class T>
 class Recycled {
  public:
@@ -21,7 +22,12 @@ class Recycled {
   T& operator[](size_t i) const { return *all_[i]; }
   T& back() const { return *all_[size_ - 1]; }
   void clear() {
-    while (size_ > 0) *all_[--size_] = T();
+    static_assert(std::is_nothrow_default_constructible_v<T>);
+    while (size_ > 0) {
+      T* object = all_[--size_].get();
+      std::destroy_at(object);
+      std::construct_at(object);
+    }
   }
 
  private:
