@@ -31,6 +31,8 @@ namespace halfspace::raster {
 namespace {
 
 constexpr uint32_t kPartPrimitives = 4096;  // a larger draw is taken in parts
+// With indices parts share vertices, and what two of them name is shaded twice: fewer parts, less of that.
+constexpr uint32_t kIndexedScale = 4;
 // With several threads draws are taken in larger parts, and more is kept back before it is executed: each
 // part and each execution is a meeting of threads.
 constexpr uint32_t kThreadedScale = 8;
@@ -111,6 +113,7 @@ struct Device::Impl {
   }
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
   uint32_t scale() const { return pool.size() > 1 ? kThreadedScale : 1; }
+  uint32_t part_scale(const DrawPacket& packet) const;
   // Whether a draw's vertices and primitives should be split over threads. Few threads had better stay with
   // the tiles that wait for them: what one of them shades has to come over to another's cache to be
   // assembled.
@@ -257,13 +260,18 @@ void Device::Impl::draw(const DrawPacket& packet) {
   draw_in_parts(packet, layout, shape, program);
 }
 
+uint32_t Device::Impl::part_scale(const DrawPacket& packet) const {
+  if (packet.primitive == Primitive::points || packet.primitive == Primitive::lines)
+    return std::min(scale(), kThreadedScaleOfPackets);
+  return packet.indices != nullptr ? std::max(scale(), kIndexedScale) : scale();
+}
+
 // Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending
 // stays small.
 void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout,
                                  const ShapePlan& shape, const PipelineProgram& program) {
   const uint32_t each = separate_vertices(packet.primitive);
-  const bool small = packet.primitive == Primitive::points || packet.primitive == Primitive::lines;
-  const uint32_t step = each * kPartPrimitives * (small ? std::min(scale(), kThreadedScaleOfPackets) : scale());
+  const uint32_t step = each * kPartPrimitives * part_scale(packet);
   if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program);
   for (uint32_t first = 0; first < packet.index_count; first += step) {
     DrawPacket part = packet;
