@@ -5,8 +5,8 @@
 HWY_INLINE bool IsPlainToSetUp(const DrawRecord& draw) {
   const VertexLayout& layout = draw.vertices.layout;
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
-  return draw.image == nullptr && !draw.runs_points && !flat && layout.low < 0 && !draw.shape.offset_fill &&
-         !draw.program->params.one_lambda;
+  const bool has_triangles = draw.image == nullptr && !draw.runs_points && !draw.runs_lines;
+  return has_triangles && !flat && layout.low < 0 && !draw.shape.offset_fill && !draw.program->params.one_lambda;
 }
 
 // Compares all that SetPlanes and LookCloser read of the parameters.
