@@ -4,8 +4,10 @@
 // A pixel a lane.
 using DLf = hn::CappedTag<float, 16>;
 using DLi = hn::RebindToSigned<DLf>;
-using PixelInts = hn::Vec<DLi>;
 inline constexpr int kPixelLanes = static_cast<int>(hn::MaxLanes(DLi()));
+// For the few pixels that many lines have left: half as many lanes, where the others fill two units.
+inline constexpr int kShortLanes = kPixelLanes == 16 ? 8 : 0;
+using DLfShort = hn::CappedTag<float, kPixelLanes == 16 ? 8 : 16>;
 
 // What of a tile may be drawn on, along a line's longer axis and along the other.
 struct LineWindow {
@@ -13,16 +15,19 @@ struct LineWindow {
 };
 
 // Fragments of neighbouring columns.
+template <class Floats>
 struct LinePiece {
-  PixelInts x, y;  // the first `count` lanes
+  using Ints = hn::RebindToSigned<Floats>;
+  static constexpr int kLanes = static_cast<int>(hn::MaxLanes(Ints()));
+  hn::Vec<Ints> x, y;  // the first `count` lanes
   int count;
 
   // In columns [column, end) of the window, of which a vector may hold a part.
   HWY_INLINE LinePiece(const LinePacket& line, int column, int end, const LineWindow& window) {
-    const DLi d;
+    const Ints d;
     const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, column));
     const auto v = Rows(line, column);
-    const hn::RebindToUnsigned<DLi> words;
+    const hn::RebindToUnsigned<Ints> words;
     const auto above = hn::BitCast(words, hn::Sub(v, hn::Set(d, window.v0)));
     const auto inside = hn::Lt(above, hn::Set(words, static_cast<uint32_t>(window.v1 - window.v0)));
     const auto live = hn::And(hn::RebindMask(d, inside), hn::Lt(u, hn::Set(d, end)));
@@ -33,7 +38,7 @@ struct LinePiece {
   }
 
  private:
-  static HWY_INLINE PixelInts Rows(const LinePacket& line, int column) {
+  static HWY_INLINE hn::Vec<Ints> Rows(const LinePacket& line, int column) {
     const DD d;
     const VD at = hn::Set(d, line.place + line.step * static_cast<double>(column - line.first));
     const VD step = hn::Set(d, line.step);
@@ -47,14 +52,14 @@ struct LinePiece {
       return hn::DemoteTo(DDi(), hn::Floor(hn::Add(at, hn::Mul(step, index))));
     };
 #endif
-#if HWY_TARGET == HWY_SCALAR
-    return rows(hn::Iota(d, 0));
-#else
-    static_assert(kPixelLanes == 2 * kDoubleLanes);
-    return hn::Combine(DLi(), rows(hn::Iota(d, kDoubleLanes)), rows(hn::Iota(d, 0)));
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (kLanes == 2 * kDoubleLanes)
+      return hn::Combine(Ints(), rows(hn::Iota(d, kDoubleLanes)), rows(hn::Iota(d, 0)));
+    else
 #endif
+      return rows(hn::Iota(d, 0));
   }
-  static HWY_INLINE PixelInts ToTheFront(PixelInts v, hn::Mask<DLi> live) {
+  static HWY_INLINE hn::Vec<Ints> ToTheFront(hn::Vec<Ints> v, hn::Mask<Ints> live) {
 #if HWY_TARGET == HWY_AVX2
     return Squeeze(live)(v);
 #else
@@ -74,7 +79,7 @@ HWY_INLINE uint64_t RectBlocks(int x0, int y0, int x1, int y1) {
 }
 
 // With a depth test, a vector of the queue's length at a time; its lanes beyond the last stand for the first.
-HWY_NOINLINE void TestAndPackPiece(TileContext& t, const LinePiece& piece, unsigned variant) {
+HWY_NOINLINE void TestAndPackPiece(TileContext& t, const LinePiece<DLf>& piece, unsigned variant) {
   const DIq d;
   alignas(64) int32_t px[kPixelLanes], py[kPixelLanes];
   hn::Store(hn::And(piece.x, hn::Set(DLi(), kTileSize - 1)), DLi(), px);
@@ -107,10 +112,11 @@ HWY_NOINLINE void ShadeWholeQueue(TileContext& t) {
 
 // Puts a line's fragments into the queue, behind the first `count` of it. `first`: of the planes that follow
 // the packet.
-HWY_INLINE void QueuePiece(const LinePacket& line, const LinePiece& piece, int first, int plane_count,
+template <class Floats>
+HWY_INLINE void QueuePiece(const LinePacket& line, const LinePiece<Floats>& piece, int first, int plane_count,
                            const uint32_t* color, int count, PixelQueue& queue) {
-  const DLi d;
-  const DLf f;
+  const hn::RebindToSigned<Floats> d;
+  const Floats f;
   const auto dx = hn::Add(hn::ConvertTo(f, piece.x), hn::Set(f, line.anchor_x));
   const auto dy = hn::Add(hn::ConvertTo(f, piece.y), hn::Set(f, line.anchor_y));
   const auto* planes = reinterpret_cast<const float*>(&line + 1);
@@ -130,7 +136,8 @@ HWY_INLINE void QueuePiece(const LinePacket& line, const LinePiece& piece, int f
   const auto offset = hn::Add(block, hn::Add(hn::ShiftLeft<3>(hn::And(piece.y, low)), hn::And(piece.x, low)));
   hn::StoreU(offset, d, queue.offset + count);
   // Every other pixel is in the cache line of its neighbour.
-  for (int i = 0; i < kPixelLanes; i += 2) __builtin_prefetch(color + queue.offset[count + i], 1);
+  for (int i = 0; i < LinePiece<Floats>::kLanes; i += 2)
+    __builtin_prefetch(color + queue.offset[count + i], 1);
 }
 
 // The planes of a line as lane 0 of a batch has them.
@@ -175,6 +182,15 @@ void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
   const int plane_count = t.plane_count;
   int count = queue.count;  // in a register: stores of planes might be to the queue's
   uint64_t fragments = 0;
+  const auto add = [&](const LinePacket& line, const auto& piece) HWY_ATTR {
+    QueuePiece(line, piece, line.variant() != 0 ? 2 : 1, plane_count, color, count, queue);
+    count += piece.count;
+    fragments += static_cast<uint64_t>(piece.count);
+    if (count < PixelQueue::kCapacity) return;
+    queue.count = count;
+    ShadeWholeQueue(t);
+    count = queue.count;
+  };
   for (; from < end; from += PacketAt(from).bytes()) {
     const LinePacket& line = PacketAt(from);
     const LineWindow& window = windows.Of(line);
@@ -186,17 +202,10 @@ void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
       t.packer.variant = variant;
     }
     const int last = EndColumn(line, window);
-    for (int column = FirstColumn(line, window); column < last; column += kPixelLanes) {
-      const LinePiece piece(line, column, last, window);
-      QueuePiece(line, piece, variant != 0 ? 2 : 1, plane_count, color, count, queue);
-      count += piece.count;
-      fragments += static_cast<uint64_t>(piece.count);
-      if (count >= PixelQueue::kCapacity) {
-        queue.count = count;
-        ShadeWholeQueue(t);
-        count = queue.count;
-      }
-    }
+    int column = FirstColumn(line, window);
+    for (; last - column > kShortLanes; column += kPixelLanes)
+      add(line, LinePiece<DLf>(line, column, last, window));
+    if (kShortLanes != 0 && column < last) add(line, LinePiece<DLfShort>(line, column, last, window));
   }
   queue.count = count;
   t.statistics->fragments += fragments;
@@ -211,7 +220,7 @@ void TestLines(TileContext& t, const std::byte* from, const std::byte* end) {
     UnpackPlanes(line, reinterpret_cast<const float*>(&line + 1) + 6, t.plane_count, t.x, t.y, t.setup);
     const int last = EndColumn(line, window);
     for (int column = FirstColumn(line, window); column < last; column += kPixelLanes) {
-      const LinePiece piece(line, column, last, window);
+      const LinePiece<DLf> piece(line, column, last, window);
       if (piece.count != 0) TestAndPackPiece(t, piece, line.variant());
     }
   }
@@ -303,7 +312,7 @@ void ListLine(const LineEnds& ends, int tile_x, int tile_y, const Rect& bounds, 
       steep ? LineWindow{cut.y0, cut.y1, cut.x0, cut.x1} : LineWindow{cut.x0, cut.x1, cut.y0, cut.y1};
   const int end = first + count < window.u1 ? first + count : window.u1;
   for (int column = first > window.u0 ? first : window.u0; column < end; column += kPixelLanes) {
-    const LinePiece piece(line, column, end, window);
+    const LinePiece<DLf> piece(line, column, end, window);
     alignas(64) int32_t px[kPixelLanes], py[kPixelLanes];
     hn::Store(piece.x, DLi(), px);
     hn::Store(piece.y, DLi(), py);
