@@ -63,14 +63,16 @@ TEST(Color, NothingIsBrighterThanWhite) {
   state.texture.view = texture.view(sampler_of(Filter::nearest, Wrap::repeat));
   state.texture.env = EnvMode::modulate;
   std::vector<Vertex> triangles;
-  for (int i = 0; i < 6000; ++i) {
-    // Needles 3 to 6 sub-pixels wide, dark along one side.
+  for (int i = 0; i < 12000; ++i) {
+    // Needles 3 to 6 sub-pixels wide, dark along one side; half of them in perspective.
     const auto real = [&random](float low, float high) { return double(random.real(low, high)); };
     const double x = real(-1, 1), y = real(-1, 1), angle = real(0, 6.25);
     const double along = 40.0 / kSize, across = real(3, 6) / 256 * 2 / kSize;
     const double dx = std::cos(angle), dy = std::sin(angle);
     const auto corner = [&](double u, double v, float bright) {
-      triangles.push_back({float(x + u * dx - v * dy), float(y + u * dy + v * dx), 0, 1, {bright, bright, bright, 1}});
+      const double w = i % 2 == 0 ? 1 : real(1, 1.25F);
+      const auto px = float((x + u * dx - v * dy) * w), py = float((y + u * dy + v * dx) * w);
+      triangles.push_back({px, py, 0, float(w), {bright, bright, bright, 1}});
     };
     corner(-along, 0, 0), corner(along, 0, 0), corner(0, across, 1);
   }
