@@ -258,8 +258,8 @@ void RunLinePackets(TileContext& t, const std::byte* from, const std::byte* end)
     const bool many = end - from >= kManyLines * static_cast<ptrdiff_t>(PacketAt(from).bytes());
     PrepareWindow(t, many ? ~uint64_t{0} : LineBlocks(t, from, end));
   }
-  t.packer.blocks = ~uint64_t{0};
   StreamLines(t, from, end);
+  t.packer.blocks = ~uint64_t{0};  // at the end, since whatever shades the queue on the way clears it
 }
 
 HWY_INLINE bool IsLineRun(const Segment& segment, uint32_t id) {
