@@ -15,7 +15,9 @@ uint32_t PacketBins::open(uint32_t tile) {
   }
   runs.push_back({bin.next, 0, tile});
   piece.run = runs.size();
-  bin.limit = piece.end;
+  // Whole packets, since whoever fills it may look only for the end. The draw before had packets of another size, maybe.
+  const size_t room = static_cast<size_t>(piece.end - bin.next);
+  bin.limit = bin.next + room / largest_ * largest_;
   return static_cast<uint32_t>(runs.size() - 1);
 }
 

@@ -166,6 +166,30 @@ TEST(Lines, ManyAreThoseDrawnOneByOne) {
   }
 }
 
+// Their packets, which are of different sizes, share a tile's memory.
+TEST(Lines, AndPointsByTurns) {
+  constexpr int kSide = 128;
+  const DrawState state = plain_state(kSide, kSide);
+  Canvas together(kSide, kSide), apart(kSide, kSide);
+  together.clear(), apart.clear();
+  Random random(41);
+  for (int turn = 0; turn < 20; ++turn) {
+    const std::vector<Vertex> lines = mixed_lines(8 + turn, kSide, false);
+    std::vector<Vertex> points;
+    for (int i = 0; i < 500; ++i)
+      points.push_back(snapped_vertex(random.integer(0, 256 * kSide - 1), random.integer(0, 256 * kSide - 1),
+                                      kSide, 0,
+                                      {random.real(0, 1), random.real(0, 1), random.real(0, 1), 1}));
+    together.draw(state, Primitive::lines, lines);
+    together.draw(state, Primitive::points, points);
+    apart.draw(state, Primitive::lines, lines);
+    apart.read();
+    apart.draw(state, Primitive::points, points);
+    apart.read();
+  }
+  EXPECT_EQ(first_difference(together.read(), apart.read()), "");
+}
+
 // Spec 3.4.1: segments of a strip or a loop share their joints, and half-open segments draw a joint inside a
 // diamond once.
 TEST(Lines, LoopsDrawEachJointOnce) {
