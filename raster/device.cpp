@@ -34,13 +34,14 @@ constexpr uint32_t kPartPrimitives = 4096;  // a larger draw is taken in parts
 // With indices parts share vertices, and what two of them name is shaded twice: fewer parts, less of that.
 constexpr uint32_t kIndexedScale = 4;
 // With several threads draws are taken in larger parts, and more is kept back before it is executed: each
-// part and each execution is a meeting of threads.
-constexpr uint32_t kThreadedScale = 8;
-// Of points and lines, which are small: more of them would not stay in the cache.
-constexpr uint32_t kThreadedScaleOfPackets = 2;
+// part and each execution is a meeting of threads. Where few meet, what stays in their caches counts for more.
+constexpr uint32_t kFewThreadsScale = 4, kManyThreadsScale = 8;
+// Of points and lines, which are small.
+constexpr uint32_t kFewThreadsScaleOfPackets = 2;
 constexpr int kFewThreads = 4;
 constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
-constexpr uint32_t kVerticesPerTask = 2048;
+constexpr uint32_t kVerticesPerTask = 2048;     // about
+constexpr uint32_t kVectors = 16;               // vertices, whole vectors of them at every level
 
 int thread_count(const DeviceOptions& options) {
   if (options.threads > 0) return std::min(options.threads, 256);
@@ -112,12 +113,16 @@ struct Device::Impl {
     return filling->program_for(state, layout, target->format, fuse);
   }
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
-  uint32_t scale() const { return pool.size() > 1 ? kThreadedScale : 1; }
+  bool has_few_threads() const { return pool.size() <= kFewThreads; }
+  uint32_t scale() const {
+    if (pool.size() == 1) return 1;
+    return has_few_threads() ? kFewThreadsScale : kManyThreadsScale;
+  }
   uint32_t part_scale(const DrawPacket& packet) const;
   // Whether a draw's vertices and primitives should be split over threads. Few threads had better stay with
   // the tiles that wait for them: what one of them shades has to come over to another's cache to be
   // assembled.
-  bool splits() const { return pool.size() > kFewThreads || (pool.size() > 1 && !pool.is_busy()); }
+  bool splits() const { return !has_few_threads() || (pool.size() > 1 && !pool.is_busy()); }
   template <class Task>
   void run_split(uint32_t count, const Task& task);
   void count_vertices(const DrawState& state, uint32_t count, Clock::duration time);
@@ -160,11 +165,12 @@ void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
     vertices.clip.resize(batch.count);
   }
   const uint32_t tasks = (batch.count + kVerticesPerTask - 1) / kVerticesPerTask;
+  // All of a size: what is left over would be a task for one thread, which the others wait for.
+  const uint32_t each = tasks == 0 ? 0 : (batch.count / tasks / kVectors + 1) * kVectors;
   const auto start = meters ? Clock::now() : Clock::time_point();
   run_split(tasks, [&](uint32_t task) {
-    const uint32_t first = task * kVerticesPerTask;
-    shade_vertices(*packet.state, batch, packet.materials, first,
-                   std::min(kVerticesPerTask, batch.count - first), vertices);
+    const uint32_t first = std::min(task * each, batch.count);
+    shade_vertices(*packet.state, batch, packet.materials, first, std::min(each, batch.count - first), vertices);
   });
   if (meters) count_vertices(*packet.state, batch.count, Clock::now() - start);
 }
@@ -261,8 +267,8 @@ void Device::Impl::draw(const DrawPacket& packet) {
 }
 
 uint32_t Device::Impl::part_scale(const DrawPacket& packet) const {
-  if (packet.primitive == Primitive::points || packet.primitive == Primitive::lines)
-    return std::min(scale(), kThreadedScaleOfPackets);
+  const bool packets = packet.primitive == Primitive::points || packet.primitive == Primitive::lines;
+  if (packets && has_few_threads()) return std::min(scale(), kFewThreadsScaleOfPackets);
   return packet.indices != nullptr ? std::max(scale(), kIndexedScale) : scale();
 }
 
