@@ -412,7 +412,7 @@ std::vector<Corner> cells(size_t columns, size_t rows, GLenum mode) {
 
 TEST_F(ImmediateTest, AMeshsVerticesArriveOnce) {
   op::enable(*context, GL_TEXTURE_2D);
-  for (GLenum mode : {GL_TRIANGLES, GL_QUADS}) {
+  for (GLenum mode : {GLenum{GL_TRIANGLES}, GLenum{GL_QUADS}}) {
     recorded_draws.clear();
     const auto corners = cells(20, 10, mode);
     op::begin(*context, mode);
