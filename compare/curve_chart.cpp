@@ -25,7 +25,7 @@ bool is_shown(const std::pair<double, double>& point) { return point.first > 0 &
 
 // Whole powers of ten around what is shown.
 struct Range {
-  double low = INFINITY, high = -INFINITY;  // exponents
+  double low = HUGE_VAL, high = -HUGE_VAL;  // exponents
 
   void take(double value) {
     low = std::min(low, std::floor(std::log10(value)));
