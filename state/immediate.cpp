@@ -15,13 +15,12 @@ namespace {
 constexpr uint32_t kFirstBatchVertices = 1020;
 static_assert(kFirstBatchVertices % 12 == 0 && kMaxBatchVertices % 12 == 0);
 
-size_t capacity_of(const ImmediateState& im) {
-  return std::min<size_t>(im.buffer.size() / kMaxVertexFloats, im.longest);
-}
+// How many vertices the buffer has room for, whatever their format.
+size_t buffer_capacity(const ImmediateState& im) { return im.buffer.size() / kMaxVertexFloats; }
 
 // Points the cursor behind `count` vertices at the start of the buffer.
 void set_cursor(ImmediateState& im, uint32_t count) {
-  const size_t capacity = capacity_of(im);
+  const size_t capacity = std::min<size_t>(buffer_capacity(im), im.longest);
   im.cursor = im.buffer.data() + size_t(count) * im.format.floats;
   im.limit = im.buffer.data() + capacity * im.format.floats;
   im.most_given = uint32_t(capacity);
@@ -146,7 +145,7 @@ void part_batch(Context& context) {
 }
 
 bool grow(ImmediateState& im) try {
-  const size_t capacity = im.buffer.size() / kMaxVertexFloats;
+  const size_t capacity = buffer_capacity(im);
   if (capacity >= im.longest) return false;
   const uint32_t count = im.vertex_count();
   const size_t wanted = capacity ? std::min<size_t>(capacity * 4, im.longest) : kFirstBatchVertices;
@@ -187,7 +186,7 @@ void start_batch(Context& context, GLenum mode) {
   im.color_varies = im.loop_parted = im.strip_goes_on = false;
   im.materials.clear();
   im.shared.start(may_share(im));
-  size_side_arrays(im, im.buffer.size() / kMaxVertexFloats);
+  size_side_arrays(im, buffer_capacity(im));
 }
 
 void close_loop(Context& context) {
@@ -215,7 +214,7 @@ bool is_same(const ImmediateState& im, Quad position, const CurrentState& curren
   return (differs[0] | differs[1]) == 0;
 }
 
-// Likewise.
+// Kept out of op::vertex, too: called where the buffer is full.
 [[gnu::noinline]] void vertex_without_room(Context& context, GLfloat x, GLfloat y, GLfloat z, GLfloat w) {
   if (make_room(context)) op::vertex(context, x, y, z, w);
 }
@@ -243,7 +242,7 @@ void gather_material(Context& context, const raster::MaterialPair& pair) {
   if (!im.inside || !im.state->lighting.enabled) return;
   const uint32_t count = im.vertex_count();
   if (im.materials.empty()) {
-    const size_t capacity = im.buffer.size() / kMaxVertexFloats;
+    const size_t capacity = buffer_capacity(im);
     if (im.material_index.size() < capacity) im.material_index.resize(capacity);
     im.materials.push_back(im.state->lighting.material);
     std::fill_n(im.material_index.begin(), count, 0u);
