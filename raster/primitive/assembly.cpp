@@ -322,9 +322,9 @@ class Assembler {
       const uint32_t v = vertex(k);
       int px, py;
       if (!is_point_seen(v, px, py)) continue;
-      const size_t tile = size_t(py / kTileSize) * size_t(segment_.tiles_x) + size_t(px / kTileSize);
+      const uint32_t tile = tile_at(px / kTileSize, py / kTileSize);
       PacketBin& bin = bins[tile];
-      if (bin.next == bin.limit) open_run(uint32_t(tile), PrimitiveKind::point_run);
+      if (bin.next == bin.limit) open_run(tile, PrimitiveKind::point_run);
       auto& point = *reinterpret_cast<PointPacket*>(bin.next);
       bin.next += sizeof point;
       point.offset = tile_offset(px, py);

@@ -180,10 +180,9 @@ HWY_INLINE void StoreTiles(const LineColumns& line, const Rect& bounds, int i, L
   const auto tile = [&](VDi v) HWY_ATTR { return hn::ShiftRight<6>(v); };
   static_assert(kTileSize == 64);
   const auto store = [&](VDi low, VDi high, int from, int to, int32_t* least, int32_t* most) HWY_ATTR {
-    hn::Store(tile(hn::Max(low, hn::Set(d, from))), d, least + i);
-    const VDi end = hn::Min(high, hn::Set(d, to - 1));
-    hn::Store(hn::IfThenElse(hn::Lt(end, hn::Max(low, hn::Set(d, from))), hn::Set(d, -1), tile(end)), d,
-              most + i);
+    const VDi begin = hn::Max(low, hn::Set(d, from)), end = hn::Min(high, hn::Set(d, to - 1));
+    hn::Store(tile(begin), d, least + i);
+    hn::Store(hn::IfThenElse(hn::Lt(end, begin), hn::Set(d, -1), tile(end)), d, most + i);
   };
   store(hn::IfThenElse(steep, line.low, line.first), hn::IfThenElse(steep, line.high, last), bounds.x0,
         bounds.x1, out.tile_x0, out.tile_x1);
