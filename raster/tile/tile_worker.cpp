@@ -367,6 +367,15 @@ void RunOneByOne(TileContext& t, const Segment& segment, const DrawRecord& recor
   }
 }
 
+// A batch for whose primitives `refs` has been read.
+HWY_INLINE void SetUpBatch(TileContext& t, const Segment& segment, const DrawRecord& record,
+                           const uint32_t* ids, const BatchRefs& refs, int count) {
+  // Lanes beyond the batch's count are computed with, though never used.
+  if (!t.input_is_clear) t.input.Clear();
+  t.input_is_clear = true;
+  SetUp(segment, record, ids, refs, count, t.x, t.y, t.limit, t.input, t.setup);
+}
+
 // How many of the primitives from ids[at] on, of `total`, are set up together: of a draw that ends before `end`.
 HWY_INLINE int BatchCount(const uint32_t* ids, size_t at, size_t total, uint32_t end) {
   if (at + kSetupLanes <= total && ids[at + kSetupLanes - 1] < end) return kSetupLanes;
@@ -389,11 +398,9 @@ size_t RunLineDraw(TileContext& t, const Segment& segment, const DrawRecord& rec
     while (count < kSetupLanes && !ends(at + static_cast<size_t>(count)) &&
            !IsLineRun(segment, ids[at + static_cast<size_t>(count)]))
       ++count;
-    if (!t.input_is_clear) t.input.Clear();
-    t.input_is_clear = true;
     BatchRefs refs;
     refs.Read(segment, record.vertices, record.vertices.layout.stride(), ids + at, count);
-    SetUp(segment, record, ids + at, refs, count, t.x, t.y, t.limit, t.input, t.setup);
+    SetUpBatch(t, segment, record, ids + at, refs, count);
     RunOneByOne(t, segment, record, ids + at, 0, count);
     at += static_cast<size_t>(count);
   }
@@ -441,11 +448,9 @@ void RunSegment(TileContext& t, const Segment& segment) {
           break;
         }
       }
-      if (!t.input_is_clear) t.input.Clear();  // lanes beyond a batch's count are computed with, though never used
-      t.input_is_clear = true;
       if (count != read) refs[now].Read(segment, record.vertices, stride, ids + at, count);
       const int drawn = ArePlainLines(t, segment, record, ids + at, count) ? RunPlainLines(t, record, refs[now], count) : 0;
-      if (drawn < count) SetUp(segment, record, ids + at, refs[now], count, t.x, t.y, t.limit, t.input, t.setup);
+      if (drawn < count) SetUpBatch(t, segment, record, ids + at, refs[now], count);
       const size_t next = at + static_cast<size_t>(count);
       read = BatchCount(ids, next, total, ~0u);
       if (read > 0) {
