@@ -17,6 +17,7 @@
 #include "raster/primitive/pixel_rect.h"
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/window_box.h"
+#include "raster/shares.h"
 #include "raster/statistics.h"
 #include "raster/surface/accumulate.h"
 #include "raster/surface/clear.h"
@@ -34,14 +35,15 @@ constexpr uint32_t kPartPrimitives = 4096;  // a larger draw is taken in parts
 // With indices parts share vertices, and what two of them name is shaded twice: fewer parts, less of that.
 constexpr uint32_t kIndexedScale = 4;
 // With several threads draws are taken in larger parts, and more is kept back before it is executed: each
-// part and each execution is a meeting of threads. Where few meet, what stays in their caches counts for more.
+// part and each execution is a meeting of threads. Where few meet, what stays in their caches counts for
+// more.
 constexpr uint32_t kFewThreadsScale = 4, kManyThreadsScale = 8;
 // Of points and lines, which are small.
 constexpr uint32_t kFewThreadsScaleOfPackets = 2;
 constexpr int kFewThreads = 4;
 constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
 constexpr uint32_t kVerticesPerTask = 2048;     // about
-constexpr uint32_t kVectors = 16;               // vertices, whole vectors of them at every level
+constexpr uint32_t kShadedAtOnce = 16;          // vertices: whole vectors at every level
 
 int thread_count(const DeviceOptions& options) {
   if (options.threads > 0) return std::min(options.threads, 256);
@@ -164,13 +166,10 @@ void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
     vertices.outcodes.resize(batch.count);
     vertices.clip.resize(batch.count);
   }
-  const uint32_t tasks = (batch.count + kVerticesPerTask - 1) / kVerticesPerTask;
-  // All of a size: what is left over would be a task for one thread, which the others wait for.
-  const uint32_t each = tasks == 0 ? 0 : (batch.count / tasks / kVectors + 1) * kVectors;
+  const Shares shares = even_shares(batch.count, (batch.count - 1) / kVerticesPerTask + 1, kShadedAtOnce);
   const auto start = meters ? Clock::now() : Clock::time_point();
-  run_split(tasks, [&](uint32_t task) {
-    const uint32_t first = std::min(task * each, batch.count);
-    shade_vertices(*packet.state, batch, packet.materials, first, std::min(each, batch.count - first), vertices);
+  run_split(shares.count, [&](uint32_t i) {
+    shade_vertices(*packet.state, batch, packet.materials, shares.first(i), shares.size(i), vertices);
   });
   if (meters) count_vertices(*packet.state, batch.count, Clock::now() - start);
 }
@@ -189,7 +188,8 @@ void Device::Impl::report_stages(const LinearImage* image) {
     if (meter.fragments[at] != 0)
       statistics.stages.push_back({stage_name(id), meter.fragments[at], meter.nanoseconds[at]});
   }
-  if (report == Report::nothing || image == nullptr || statistics.draws == statistics_at_picture.draws) return;
+  if (report == Report::nothing || image == nullptr || statistics.draws == statistics_at_picture.draws)
+    return;
   print_statistics(statistics_at_picture, statistics,
                    static_cast<size_t>(target->width) * static_cast<size_t>(target->height));
   statistics_at_picture = statistics;
@@ -219,17 +219,16 @@ bool Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, u
     stipple = segment.stipple_end;
     return segment.refers_to_vertices;
   }
-  const auto parts = static_cast<uint32_t>(pool.size());
+  const Shares parts = even_shares(primitives, static_cast<uint32_t>(pool.size()));
   const size_t first_segment = filling->segments().size();
-  for (uint32_t i = 0; i < parts; ++i) filling->new_segment(*target);
-  const uint32_t each = (primitives + parts - 1) / parts;
-  pool.run(parts, [&](uint32_t part, int) {
-    const uint32_t first = std::min(part * each, primitives);
-    assemble(record, packet.primitive, packet.indices, packet.index_count, first,
-             std::min(each, primitives - first), *filling->segments()[first_segment + part]);
+  for (uint32_t i = 0; i < parts.count; ++i) filling->new_segment(*target);
+  pool.run(parts.count, [&](uint32_t part, int) {
+    assemble(record, packet.primitive, packet.indices, packet.index_count, parts.first(part),
+             parts.size(part), *filling->segments()[first_segment + part]);
   });
   bool refers = false;
-  for (uint32_t i = 0; i < parts; ++i) refers |= filling->segments()[first_segment + i]->refers_to_vertices;
+  for (uint32_t i = 0; i < parts.count; ++i)
+    refers |= filling->segments()[first_segment + i]->refers_to_vertices;
   return refers;
 }
 
@@ -274,8 +273,8 @@ uint32_t Device::Impl::part_scale(const DrawPacket& packet) const {
 
 // Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending
 // stays small.
-void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout,
-                                 const ShapePlan& shape, const PipelineProgram& program) {
+void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
+                                 const PipelineProgram& program) {
   const uint32_t each = separate_vertices(packet.primitive);
   const uint32_t step = each * kPartPrimitives * part_scale(packet);
   if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program);
@@ -395,8 +394,10 @@ void Device::Impl::settle() {
 // Shows a tile that is drawn; by rows: with the last of a row of tiles, the row.
 void Device::Impl::show_tile(uint32_t tile, bool by_rows, const LinearImage& image, ColorPlane plane) const {
   const auto row = static_cast<uint32_t>(target->tiles_x);
-  if (!by_rows) resolve_tiles(*target, tile, 1, plane_index(plane), image);
-  else if ((tile + 1) % row == 0) resolve_tiles(*target, tile + 1 - row, row, plane_index(plane), image);
+  if (!by_rows)
+    resolve_tiles(*target, tile, 1, plane_index(plane), image);
+  else if ((tile + 1) % row == 0)
+    resolve_tiles(*target, tile + 1 - row, row, plane_index(plane), image);
 }
 
 // Has the pool draw the batch that was filled, once it is done with the one before.
