@@ -12,9 +12,7 @@ namespace {
 
 constexpr size_t kMaxBytes = size_t{1} << 18;  // shaded vertices
 constexpr size_t kMaxPrimitives = size_t{1} << 13;
-// Of points and lines, which wait in bins as packets. Threads gain by more of them only as long as caches hold them.
-constexpr size_t kMaxPacketBytes = size_t{3} << 17;
-constexpr uint32_t kMostPacketScale = 2;
+constexpr size_t kMaxPacketBytes = size_t{3} << 17;  // of points and lines, which wait in bins as packets
 // Limits are so many times as large where what is pending lies scattered: less than kDensePrimitives of it in each of its
 // tiles. To visit a tile again costs more then than vertices that have left the cache: 1.2 times as fast with triangles
 // of 100 pixels, 1.1 with 65. Lines and points have too few pixels for that. Nothing is gained while primitives go on to
@@ -92,7 +90,7 @@ bool Batch::is_covered_by(const ClearCommand& command, const Framebuffer::Impl& 
          (command.stencil || !stencil_) && clears_everything(target, command);
 }
 
-bool Batch::is_full(uint32_t scale) {
+bool Batch::is_full(uint32_t scale, uint32_t packet_scale) {
   size_t primitives = 0, packet_bytes = 0, touched = 0, widest = 0;
   for (const Segment* segment : pending_) {
     primitives += segment->primitives.size();
@@ -103,7 +101,7 @@ bool Batch::is_full(uint32_t scale) {
   const auto exceeds = [&](uint32_t times) {
     return arena.bytes_in_use() > kMaxBytes * times || primitives > kMaxPrimitives * times;
   };
-  if (packet_bytes > kMaxPacketBytes * std::min(scale, kMostPacketScale)) return true;
+  if (packet_bytes > kMaxPacketBytes * packet_scale) return true;
   const bool many_texels = textures_.size() > 1 && texture_bytes_ > kMaxTextureBytes;
   if (many_texels || draws.size() >= kMaxDraws || exceeds(std::max(scale, kScatteredScale))) return true;
   if (!exceeds(scale)) return false;

@@ -33,8 +33,9 @@ class Batch {
   // True if nothing of it would be seen after the clear.
   bool is_covered_by(const ClearCommand& command, const Framebuffer::Impl& target) const;
   bool empty() const { return pending_.empty(); }
-  // Enough to be executed: memory stays bounded whatever a frame draws. `scale`: of the limits.
-  bool is_full(uint32_t scale);
+  // Enough to be executed: memory stays bounded whatever a frame draws. `scale`: of the limits, but
+  // `packet_scale` of that of points and lines.
+  bool is_full(uint32_t scale, uint32_t packet_scale);
   // Tiles with something to draw, or all of them, as tasks for `workers`: ends[w] ends the stretch of worker
   // w, which is dealt the same tiles each time.
   void deal_tiles(const Framebuffer::Impl& target, bool all, int workers);

@@ -38,7 +38,7 @@ constexpr uint32_t kIndexedScale = 4;
 // part and each execution is a meeting of threads. Where few meet, what stays in their caches counts for
 // more.
 constexpr uint32_t kFewThreadsScale = 4, kManyThreadsScale = 8;
-// Of points and lines, which are small.
+// Of points and lines: more of them than these leave the caches before their tiles come to them.
 constexpr uint32_t kFewThreadsScaleOfPackets = 2;
 constexpr int kFewThreads = 4;
 constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
@@ -119,6 +119,9 @@ struct Device::Impl {
   uint32_t scale() const {
     if (pool.size() == 1) return 1;
     return has_few_threads() ? kFewThreadsScale : kManyThreadsScale;
+  }
+  uint32_t packet_scale() const {
+    return has_few_threads() ? std::min(scale(), kFewThreadsScaleOfPackets) : scale();
   }
   uint32_t part_scale(const DrawPacket& packet) const;
   // Whether a draw's vertices and primitives should be split over threads. Few threads had better stay with
@@ -266,8 +269,7 @@ void Device::Impl::draw(const DrawPacket& packet) {
 }
 
 uint32_t Device::Impl::part_scale(const DrawPacket& packet) const {
-  const bool packets = packet.primitive == Primitive::points || packet.primitive == Primitive::lines;
-  if (packets && has_few_threads()) return std::min(scale(), kFewThreadsScaleOfPackets);
+  if (packet.primitive == Primitive::points || packet.primitive == Primitive::lines) return packet_scale();
   return packet.indices != nullptr ? std::max(scale(), kIndexedScale) : scale();
 }
 
@@ -329,7 +331,7 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
 }
 
 void Device::Impl::execute_if_full() {
-  if (filling->is_full(scale())) hand_over(nullptr, kBackPlane);
+  if (filling->is_full(scale(), packet_scale())) hand_over(nullptr, kBackPlane);
 }
 
 // Asks the framebuffer for what the packet draws on; false if it draws nothing.

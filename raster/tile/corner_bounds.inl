@@ -1,9 +1,9 @@
 // Set-up: whether floats do where PlaneMaker's bounds do not say so. Compiled once per ISA level.
 
-// A second look at primitives that the bounds of PlaneMaker take for too large for floats: the same roundings, but at
-// each corner against 1/w at that very corner. A bound is largest at a corner, since it is convex and 1/w linear.
 inline constexpr double kLeastNormal = 0x1p-100;  // 1/w of which floats are normal numbers
 
+// A second look at primitives that the bounds of PlaneMaker take for too large for floats: the same roundings, but at
+// each corner against 1/w at that very corner. A bound is largest at a corner, since it is convex and 1/w linear.
 struct CornerBounds {
   VD x[3], y[3], spread[3];  // of each snapped corner: the way from the anchor, pixels; w, 1 where it is constant
   VD w_error;                // of 1/w in float, in parts of it
@@ -48,7 +48,6 @@ struct CornerBounds {
   }
 
  private:
-
   // The tolerance holds everywhere, or `reach` times as much does by way of 1/w: error / w <= reach * tolerance.
   HWY_INLINE void Check(int plane, VD tolerance, VD reach, int i, const SetupBatch& out) {
     const DD d;

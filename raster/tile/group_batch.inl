@@ -7,9 +7,9 @@
 inline constexpr int kSpanWidth = GroupDepths::kColumns, kSpanRows = GroupDepths::kRows;
 
 #if HWY_TARGET == HWY_AVX3
-// Edges of less than 64 pixels along either axis, the steps of their values: then whatever decides about a pixel of the window is below 2^21,
-// and exact in float. Where an edge is crossed is e / step: within the window off by less than 2^-17 as a
-// float, and it lies at least 2^-14 from the integers it is none of.
+// The most an edge's value may gain by a pixel: 64 pixels of edge in steps of 1/256. Values in a window are
+// then below 2^21, and exact in float. Where an edge is crossed is e / step: within the window off by less
+// than 2^-17 as a float, and it lies at least 2^-14 from the integers it is none of.
 inline constexpr int32_t kSpanStep = 1 << 14;
 inline constexpr float kSpanSlack = 0x1p-15f;
 
@@ -20,8 +20,9 @@ struct SpanBatch {
   alignas(32) float turn[3][kSetupLanes];                       // columns for each unit of it
   // What makes columns out of where it is crossed: the first inside, or the last; the other one is no bound.
   alignas(32) float enter[3][kSetupLanes], leave[3][kSetupLanes];
-  alignas(32) int32_t first[kSetupLanes], width[kSetupLanes],
-      height[kSetupLanes];  // of the box: columns, rows above the first
+  alignas(32) int32_t left[kSetupLanes], bottom[kSetupLanes];  // the first window's first pixel
+  // Of the box, from there: its first column, its last, its last row.
+  alignas(32) int32_t first[kSetupLanes], width[kSetupLanes], height[kSetupLanes];
   alignas(32) int32_t place[kSetupLanes],
       phase[kSetupLanes];                    // of the first group, and its pair of rows in the block
   alignas(64) uint64_t rows[kSetupLanes];    // bits of the box's rows, from the first window's
@@ -56,6 +57,8 @@ struct SpanBatch {
       _mm256_store_ps(leave[k], _mm256_mask_mov_ps(slack, enters, far));
     }
     const __m256i wide = _mm256_sub_epi32(max_x, x), high = _mm256_sub_epi32(max_y, y);
+    store(x, left);
+    store(y, bottom);
     store(_mm256_sub_epi32(min_x, x), first);
     store(wide, width);
     store(high, height);
@@ -157,7 +160,7 @@ class GroupBatch {
     stages_ = &stages;
     lanes_ |= 1u << lane;
     blocks_ |= spans_.blocks[lane];
-    const int left = t_.setup.min_x[lane] & ~(kBlockSize - 1), bottom = t_.setup.min_y[lane] & ~1;
+    const int left = spans_.left[lane], bottom = spans_.bottom[lane];
     const bool depth = stages.groups_depth != nullptr;
     for (int x = 0; depth && x <= spans_.width[lane]; x += kSpanWidth)
       FillColumnDepths(t_.setup, lane, left + x, t_.group_depths);

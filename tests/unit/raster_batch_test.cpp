@@ -99,7 +99,7 @@ TEST_F(BatchTest, LayoutAndFormatCountToo) {
 
 TEST_F(BatchTest, ManySmallDrawsFillIt) {
   int draws = 0;
-  for (; !batch.is_full(1) && draws < 100000; ++draws) batch.draws.emplace_back();
+  for (; !batch.is_full(1, 1) && draws < 100000; ++draws) batch.draws.emplace_back();
   EXPECT_GE(draws, 16);
   EXPECT_LE(draws, 1024) << "several kilobytes each";
 }
@@ -111,7 +111,7 @@ size_t primitives_to_fill(PrimitiveKind kind, int tiles, int run = 1) {
   Batch batch;
   Segment& segment = batch.open_segment(framebuffer);
   const PrimitiveRef one{{0, 1, 2}, kind, false, false, 0};
-  for (uint32_t i = 0; !batch.is_full(1) && i < 1000000; ++i) {
+  for (uint32_t i = 0; !batch.is_full(1, 1) && i < 1000000; ++i) {
     segment.primitives.push_back(one);
     const int tile = static_cast<int>(i) / run % tiles;
     push_to_bin(segment, tile % 16, tile / 16, i);
