@@ -31,25 +31,26 @@ struct CornerBounds {
   HWY_INLINE void CheckAttributes(const VertexLayout& layout, const FragmentParams& params, hn::Mask<DD> affine, int i,
                                   const SetupBatch& out) {
     const DD d;
-    const VD nowhere = hn::Zero(d);
     for (int k = 0; layout.color >= 0 && k < 4; ++k)
-      Check(2 + layout.color + k, hn::Set(d, kCloseLook * kColorTolerance), nowhere, i, out);
+      Check(2 + layout.color + k, hn::Set(d, kCloseLook * kColorTolerance), i, out);
     if (layout.tex_coord >= 0) {
       // Down to a level of one texel, and by each pixel's own lambda.
       const LevelRef& last = params.levels[params.level_count - 1];
       const bool mips = params.level_count > 1 && last.width_i == 1 && last.height_i == 1 && !params.one_lambda;
-      const VD reach = mips ? ReachOfMips(layout, params, affine, i, out) : nowhere;
+      const VD reach = mips ? ReachOfMips(layout, params, affine, i, out) : hn::Zero(d);
       const double size[2] = {static_cast<double>(params.levels[0].width), static_cast<double>(params.levels[0].height)};
       for (int axis = 0; axis < 2; ++axis)
-        Check(2 + layout.tex_coord + axis, hn::Set(d, kCloseLook * kTexelTolerance / size[axis]), reach, i, out);
+        Check(2 + layout.tex_coord + axis, hn::Set(d, kCloseLook * kTexelTolerance / size[axis]), i, out,
+              mips ? &reach : nullptr);
     }
     if (layout.fog >= 0)
-      Check(2 + layout.fog, hn::Set(d, kCloseLook * kColorTolerance * params.fog.level_span), nowhere, i, out);
+      Check(2 + layout.fog, hn::Set(d, kCloseLook * kColorTolerance * params.fog.level_span), i, out);
   }
 
  private:
-  // The tolerance holds everywhere, or `reach` times as much does by way of 1/w: error / w <= reach * tolerance.
-  HWY_INLINE void Check(int plane, VD tolerance, VD reach, int i, const SetupBatch& out) {
+  // The tolerance holds everywhere, or, where there is a `reach`, as many times as much does by way of 1/w: error / w <=
+  // reach * tolerance.
+  HWY_INLINE void Check(int plane, VD tolerance, int i, const SetupBatch& out, const VD* reach = nullptr) {
     const DD d;
     VD error = hn::Zero(d), value = hn::Zero(d), by_w = hn::Zero(d);
     const VD quotient = hn::Add(w_error, hn::Set(d, 2 * kRounding));
@@ -57,11 +58,13 @@ struct CornerBounds {
       const Corner corner = Largest(plane, k, i, out);
       error = hn::Max(error, corner.error);
       value = hn::Max(value, hn::Abs(corner.value));
+      if (reach == nullptr) continue;
       const VD sum = hn::Add(corner.error, hn::Mul(hn::Abs(corner.value), quotient));
       by_w = hn::Max(by_w, hn::Div(sum, spread[k]));
     }
-    const auto everywhere = hn::Le(hn::Add(error, hn::Mul(value, quotient)), tolerance);
-    fails = hn::Or(fails, hn::Not(hn::Or(everywhere, hn::Le(by_w, hn::Mul(tolerance, reach)))));
+    auto holds = hn::Le(hn::Add(error, hn::Mul(value, quotient)), tolerance);
+    if (reach != nullptr) holds = hn::Or(holds, hn::Le(by_w, hn::Mul(tolerance, *reach)));
+    fails = hn::Or(fails, hn::Not(holds));
   }
 
   // Texels are larger than those of level 0 where mip levels are looked up. With rho = g w^2, g its least numerator, a

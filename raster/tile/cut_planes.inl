@@ -5,59 +5,119 @@
 // points take doubles.
 class CutPlanes {
  public:
-  HWY_INLINE CutPlanes(const Segment& segment, const VertexLayout& layout, int32_t center_x, int32_t center_y)
-      : segment_(segment), layout_(layout), center_x_(center_x), center_y_(center_y) {}
+  HWY_INLINE CutPlanes(const Segment& segment, const VertexLayout& layout, const uint32_t* ids, int count)
+      : layout_(layout) {
+    for (int lane = 0; lane < count; ++lane) {
+      const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
+      if (!ref.cut) continue;
+      cut_ |= 1u << lane;
+      if (ref.kind == PrimitiveKind::triangle) triangles_ |= 1u << lane;
+      source_[lane] = &segment.plane_sources.data()[ref.v[2]];
+    }
+    // Somewhere to look at for the others.
+    for (int lane = 0; lane < kSetupLanes && cut_ != 0; ++lane)
+      if ((cut_ >> lane & 1) == 0) source_[lane] = source_[__builtin_ctz(cut_)];
+  }
 
-  HWY_INLINE void Copy(const PrimitiveRef& ref, int lane, SetupBatch& out) {
-    const CutTriangle& cut = segment_.cut_triangles.data()[ref.v[0]];
-    const PlaneSource& source = segment_.plane_sources.data()[cut.source];
-    Place anchor{source.x0, source.y0};
-    if (ref.kind == PrimitiveKind::triangle) {
-      anchor = Farthest(cut, source);
-      for (int k = 0; k < 3; ++k) x_[k][lane] = Pixels(cut.x[k] - anchor.x), y_[k][lane] = Pixels(cut.y[k] - anchor.y);
-      triangles_ |= 1u << lane;
-    }
-    const double dx = Pixels(anchor.x - source.x0), dy = Pixels(anchor.y - source.y0);
-    for (int p = 0; p < 2 + layout_.attribute_count; ++p) {
-      const bool color = layout_.color >= 0 && p >= 2 + layout_.color && p < 6 + layout_.color;
-      const double scale = p == 0 ? kDepthScale : (color ? 255.0 : 1.0);
-      const Plane& plane = source.planes[p];
-      out.f0[p][lane] = ((plane.f0 + plane.dfdy * dy) + plane.dfdx * dx) * scale + (p == 0 ? 0.5 : 0.0);
-      out.dfdx[p][lane] = plane.dfdx * scale;
-      out.dfdy[p][lane] = plane.dfdy * scale;
-    }
-    out.variant[lane] = kDouble;
-    out.anchor_x[lane] = Pixels(center_x_ - anchor.x);
-    out.anchor_y[lane] = Pixels(center_y_ - anchor.y);
-    out.anchor_x_f[lane] = static_cast<float>(out.anchor_x[lane]);
-    out.anchor_y_f[lane] = static_cast<float>(out.anchor_y[lane]);
+  // The planes of the batch's cut primitives, whose corners are `in`'s.
+  HWY_INLINE void Move(const SetupInput& in, int32_t center_x, int32_t center_y, SetupBatch& out) {
+    for (int i = 0; i < kSetupLanes; i += kDoubleLanes)
+      if ((cut_ >> i & kGroup) != 0) MoveGroup(in, center_x, center_y, i, out);
+    for (unsigned todo = cut_; todo != 0; todo &= todo - 1) out.variant[__builtin_ctz(todo)] = kDouble;
   }
 
   // Which of the triangles floats do for.
   HWY_INLINE void Judge(const FragmentParams& params, SetupBatch& out) const {
     if (triangles_ == 0 || layout_.projective || params.plane_rule == PlaneRule::in_double) return;
     for (int i = 0; i < kSetupLanes; i += kDoubleLanes)
-      if ((triangles_ >> i & ((1u << kDoubleLanes) - 1)) != 0) JudgeGroup(params, i, out);
+      if ((triangles_ >> i & kGroup) != 0) JudgeGroup(params, i, out);
   }
 
  private:
-  struct Place {
-    int32_t x, y;  // 16.8
-  };
-  static HWY_INLINE double Pixels(int32_t distance) { return distance * (1.0 / kSubpixelScale); }
+  static constexpr unsigned kGroup = (1u << kDoubleLanes) - 1;
 
-  // Of several the lowest, then leftmost.
-  static HWY_INLINE Place Farthest(const CutTriangle& cut, const PlaneSource& source) {
-    const Plane& inv_w = source.planes[1];
-    Place place{};
-    double least = 0;
+  struct Places {
+    VD x, y;  // 16.8
+  };
+  static HWY_INLINE VD Pixels(VD distance) { return hn::Mul(distance, hn::Set(DD(), 1.0 / kSubpixelScale)); }
+
+  // A double of each lane's source.
+  template <class Of>
+  HWY_INLINE VD Gather(int i, Of of) const {
+    const DD d;
+    VD all = hn::Set(d, of(*source_[i]));
+    for (int k = 1; k < kDoubleLanes; ++k)
+      all = hn::IfThenElse(Lanes(1u << k, 0), hn::Set(d, of(*source_[i + k])), all);
+    return all;
+  }
+
+  struct Planes {
+    VD f0, dfdx, dfdy;
+    HWY_INLINE VD At(VD x, VD y) const { return hn::Add(hn::Add(f0, hn::Mul(dfdy, y)), hn::Mul(dfdx, x)); }
+  };
+  HWY_INLINE Planes PlanesOf(int plane, int i) const {
+    return {Gather(i, [plane](const PlaneSource& s) HWY_ATTR { return s.planes[plane].f0; }),
+            Gather(i, [plane](const PlaneSource& s) HWY_ATTR { return s.planes[plane].dfdx; }),
+            Gather(i, [plane](const PlaneSource& s) HWY_ATTR { return s.planes[plane].dfdy; })};
+  }
+
+  // Of the corners where 1/w is least the lowest, then leftmost.
+  static HWY_INLINE Places Farthest(const Places corner[3], const Planes& inv_w, const Places& from) {
+    Places place{};
+    VD least{};
     for (int k = 0; k < 3; ++k) {
-      const Place at{cut.x[k], cut.y[k]};
-      const double value = (inv_w.f0 + inv_w.dfdy * Pixels(at.y - source.y0)) + inv_w.dfdx * Pixels(at.x - source.x0);
-      const bool lower = at.y < place.y || (at.y == place.y && at.x < place.x);
-      if (k == 0 || value < least || (value == least && lower)) place = at, least = value;
+      const Places& at = corner[k];
+      const VD value = inv_w.At(Pixels(hn::Sub(at.x, from.x)), Pixels(hn::Sub(at.y, from.y)));
+      if (k == 0) {
+        place = at, least = value;
+        continue;
+      }
+      const auto lower = hn::Or(hn::Lt(at.y, place.y), hn::And(hn::Eq(at.y, place.y), hn::Lt(at.x, place.x)));
+      const auto take = hn::Or(hn::Lt(value, least), hn::And(hn::Eq(value, least), lower));
+      place = {hn::IfThenElse(take, at.x, place.x), hn::IfThenElse(take, at.y, place.y)};
+      least = hn::IfThenElse(take, value, least);
     }
     return place;
+  }
+
+  HWY_NOINLINE void MoveGroup(const SetupInput& in, int32_t center_x, int32_t center_y, int i, SetupBatch& out) {
+    const DD d;
+    const DDi di;
+    const DDf f;
+    const auto is_cut = Lanes(cut_, i), is_triangle = Lanes(triangles_, i);
+    const auto put = [&](VD v, double* to) HWY_ATTR { hn::Store(hn::IfThenElse(is_cut, v, hn::Load(d, to)), d, to); };
+    const VD words = Gather(i, [](const PlaneSource& s) HWY_ATTR {
+      double word;  // x0 and y0
+      memcpy(&word, &s.x0, sizeof word);
+      return word;
+    });
+    static_assert(offsetof(PlaneSource, y0) == offsetof(PlaneSource, x0) + sizeof(int32_t));
+    const Places from{hn::PromoteTo(d, LowHalf(di, words)), hn::PromoteTo(d, HighHalf(di, words))};
+    Places corner[3];
+    for (int k = 0; k < 3; ++k)
+      corner[k] = {hn::PromoteTo(d, hn::Load(di, in.x[k] + i)), hn::PromoteTo(d, hn::Load(di, in.y[k] + i))};
+    const Planes inv_w = PlanesOf(1, i);
+    const Places farthest = Farthest(corner, inv_w, from);
+    const Places anchor{hn::IfThenElse(is_triangle, farthest.x, from.x),
+                        hn::IfThenElse(is_triangle, farthest.y, from.y)};
+    for (int k = 0; k < 3; ++k) {
+      hn::Store(Pixels(hn::Sub(corner[k].x, anchor.x)), d, x_[k] + i);
+      hn::Store(Pixels(hn::Sub(corner[k].y, anchor.y)), d, y_[k] + i);
+    }
+    const VD dx = Pixels(hn::Sub(anchor.x, from.x)), dy = Pixels(hn::Sub(anchor.y, from.y));
+    for (int p = 0; p < 2 + layout_.attribute_count; ++p) {
+      const Planes plane = p == 1 ? inv_w : PlanesOf(p, i);
+      const bool color = layout_.color >= 0 && p >= 2 + layout_.color && p < 6 + layout_.color;
+      const VD scale = hn::Set(d, p == 0 ? kDepthScale : (color ? 255.0 : 1.0));
+      // Truncation then rounds depth to nearest.
+      put(hn::Add(hn::Mul(plane.At(dx, dy), scale), hn::Set(d, p == 0 ? 0.5 : 0.0)), out.f0[p] + i);
+      put(hn::Mul(plane.dfdx, scale), out.dfdx[p] + i);
+      put(hn::Mul(plane.dfdy, scale), out.dfdy[p] + i);
+    }
+    put(Pixels(hn::Sub(hn::Set(d, static_cast<double>(center_x)), anchor.x)), out.anchor_x + i);
+    put(Pixels(hn::Sub(hn::Set(d, static_cast<double>(center_y)), anchor.y)), out.anchor_y + i);
+    hn::Store(hn::DemoteTo(f, hn::Load(d, out.anchor_x + i)), f, out.anchor_x_f + i);
+    hn::Store(hn::DemoteTo(f, hn::Load(d, out.anchor_y + i)), f, out.anchor_y_f + i);
   }
 
   HWY_NOINLINE void JudgeGroup(const FragmentParams& params, int i, SetupBatch& out) const {
@@ -74,9 +134,9 @@ class CutPlanes {
     CornerBounds bounds(x, y, NoLane(), i, out);
     bounds.CheckAttributes(layout_, params, NoLane(), i, out);
     alignas(64) double fails[kDoubleLanes];
-    hn::Store(hn::IfThenElseZero(bounds.fails, hn::Set(d, 1.0)), d, fails);
-    for (int k = 0; k < kDoubleLanes; ++k)
-      if ((triangles_ >> (i + k) & 1) != 0 && fails[k] == 0) out.variant[i + k] = 0;
+    hn::Store(hn::IfThenElseZero(bounds.fails, hn::Set(d, static_cast<double>(kDouble))), d, fails);
+    for (unsigned todo = triangles_ >> i & kGroup; todo != 0; todo &= todo - 1)
+      out.variant[i + __builtin_ctz(todo)] = static_cast<uint8_t>(fails[__builtin_ctz(todo)]);
   }
 
   HWY_INLINE void TakeWholeTurns(const FragmentParams& params, const VD x[3], const VD y[3], int i,
@@ -88,7 +148,7 @@ class CutPlanes {
       return hn::Add(row, hn::Mul(hn::Load(d, out.dfdx[plane] + i), x[k]));
     };
     VD inv_w[3];
-    auto usable = CutLanes(i);
+    auto usable = Lanes(triangles_, i);
     for (int k = 0; k < 3; ++k) inv_w[k] = at(1, k), usable = hn::And(usable, hn::Ge(inv_w[k], least));
     const Wrap wrap[2] = {params.sampler.wrap_s, params.sampler.wrap_t};
     for (int axis = 0; axis < 2; ++axis) {
@@ -104,15 +164,15 @@ class CutPlanes {
     }
   }
 
-  HWY_INLINE hn::Mask<DD> CutLanes(int i) const {
-    alignas(64) double is_cut[kDoubleLanes];
-    for (int k = 0; k < kDoubleLanes; ++k) is_cut[k] = triangles_ >> (i + k) & 1;
-    return hn::Ne(hn::Load(DD(), is_cut), hn::Zero(DD()));
+  // Of the group that starts at lane i, those whose bits are set.
+  static HWY_INLINE hn::Mask<DD> Lanes(unsigned bits, int i) {
+    const hn::RebindToUnsigned<DD> words;
+    alignas(64) static constexpr uint64_t kBits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+    return hn::RebindMask(DD(), hn::TestBit(hn::Set(words, bits >> i), hn::Load(words, kBits)));
   }
 
-  const Segment& segment_;
   const VertexLayout& layout_;
-  const int32_t center_x_, center_y_;
-  unsigned triangles_ = 0;                                                 // bits of the lanes that are
-  alignas(64) double x_[3][kSetupLanes] = {}, y_[3][kSetupLanes] = {};  // their corners, pixels from the anchor
+  unsigned cut_ = 0, triangles_ = 0;  // bits of the lanes that are
+  const PlaneSource* source_[kSetupLanes];
+  alignas(64) double x_[3][kSetupLanes], y_[3][kSetupLanes];  // corners, pixels from the anchor
 };

@@ -412,10 +412,10 @@ HWY_NOINLINE void FinishLanes(const Segment& segment, const DrawRecord& draw, co
   const VertexLayout& layout = draw.vertices.layout;
   const FragmentParams& params = draw.program->params;
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
-  CutPlanes cut(segment, layout, center_x, center_y);
+  CutPlanes cut(segment, layout, ids, count);
+  cut.Move(in, center_x, center_y, out);
   for (int lane = 0; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    if (ref.cut) cut.Copy(ref, lane, out);
     if (flat) SetFlatColor(segment, draw, ref, lane, out);
     if (params.one_lambda) out.lambda[lane] = LambdaOf(in, params, layout, lane, center_x, center_y, out);
     if (draw.shape.offset_fill && ref.kind <= PrimitiveKind::smooth_triangle)
@@ -438,7 +438,7 @@ HWY_INLINE void SetAnchor(const CornerVectors& v, int i, VD center_x, VD center_
 // What set-up makes of the corners of a batch, which lie as `from` knows.
 template <class Corners>
 HWY_INLINE void SetUpCorners(const Corners& from, const Segment& segment, const DrawRecord& draw, const uint32_t* ids,
-                             int count, int32_t center_x, int32_t center_y, const Rect& limit, SetupInput& in,
+                             int count, bool any_cut, int32_t center_x, int32_t center_y, const Rect& limit, SetupInput& in,
                              SetupBatch& out) {
   const DD d;
   const VertexLayout& layout = draw.vertices.layout;
@@ -448,7 +448,7 @@ HWY_INLINE void SetUpCorners(const Corners& from, const Segment& segment, const 
   for (int i = 0; i < count; i += kDoubleLanes) {
     CornerVectors v;
     SpreadCorners(from, quads, layout.attribute_count, i, v, in);
-    if (HWY_UNLIKELY(layout.low >= 0 || params.one_lambda)) StorePlaces(v, i, in);
+    if (HWY_UNLIKELY(layout.low >= 0 || params.one_lambda || any_cut)) StorePlaces(v, i, in);
     if (HWY_UNLIKELY(layout.low >= 0)) {
       const int left = count - i;
       LoadLowParts(segment, draw.vertices, ids, i, left < kDoubleLanes ? left : kDoubleLanes, in);
@@ -471,7 +471,7 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
   // With the colours that come first.
   if (HWY_LIKELY(refs.triangles && !(refs.any_back && layout.back_color >= 0))) {
     const auto set_up = [&](const auto& at) HWY_ATTR {
-      SetUpCorners(DirectCorners{at}, segment, draw, ids, count, center_x, center_y, limit, in, out);
+      SetUpCorners(DirectCorners{at}, segment, draw, ids, count, refs.any_cut, center_x, center_y, limit, in, out);
     };
     if (HWY_LIKELY(!refs.any_cut)) set_up(refs.at);
     else set_up(CutCorners(segment, refs, ids, count).at);
@@ -481,7 +481,7 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
     const QuadPlan quads(layout.attribute_count);
     for (int lane = 0; lane < count; ++lane)
       CopyCorners(segment, draw.vertices, stride, segment.primitives.data()[ids[lane]], quads, lane, in);
-    SetUpCorners(StagedCorners{in}, segment, draw, ids, count, center_x, center_y, limit, in, out);
+    SetUpCorners(StagedCorners{in}, segment, draw, ids, count, refs.any_cut, center_x, center_y, limit, in, out);
   }
   const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
   if (refs.any_cut || flat || draw.shape.offset_fill || draw.program->params.one_lambda)

@@ -23,7 +23,7 @@ struct SetupInput {
   alignas(64) uint64_t in_order[kSetupLanes];  // not 0: corners are in the order they are wanted in
   // A column a value, in the order set-up wants the corners in.
   alignas(64) float attribute[kMaxPlanes - 2][3][kSetupLanes];
-  // The same, where accuracy calls for them only: positions, and what the attributes' floats have left of doubles.
+  // The same, where somebody asks for them only: positions, and what the attributes' floats have left of doubles.
   alignas(64) int32_t x[3][kSetupLanes], y[3][kSetupLanes];
   alignas(64) double low[kMaxPlanes - 2][3][kSetupLanes];
 
