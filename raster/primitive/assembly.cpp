@@ -6,6 +6,7 @@
 
 #include "raster/fragment/program.h"
 #include "raster/primitive/clip.h"
+#include "raster/primitive/cut_faces.h"
 #include "raster/primitive/patterns.h"
 #include "raster/primitive/shape_assembly.h"
 #include "raster/primitive/triangle_filter.h"
@@ -53,39 +54,50 @@ class Assembler {
         stride_(draw.vertices.layout.stride()),
         outcodes_(draw.vertices.outcodes.data()),
         bounds_(draw.bounds),
-        clipper_(draw) {
-    const RasterState& raster = draw.state->raster;
-    front_is_ccw_ = raster.front_is_ccw;
-    const bool cull_ccw = front_is_ccw_ ? raster.cull_front : raster.cull_back;
-    const bool cull_cw = front_is_ccw_ ? raster.cull_back : raster.cull_front;
-    culled_from_ = cull_cw ? INT64_MIN : 0;
-    culled_to_ = cull_ccw ? INT64_MAX : 0;
-    filter_ = {records_, stride_,        draw.vertices.all_inside ? nullptr : outcodes_, bounds_, cull_cw,
-               cull_ccw, segment.tiles_x};
-  }
+        facing_(draw.state->raster),
+        filter_{records_,       stride_,         draw.vertices.all_inside ? nullptr : outcodes_,
+                bounds_,        facing_.cull_cw, facing_.cull_ccw,
+                segment.tiles_x},
+        clipper_(draw) {}
 
   template <class Pattern>
   void faces(uint32_t first, uint32_t count) {
     segment_.triangles_in += count;
     const TriangleFilterFunction run_filter = triangle_filter();
-    uint32_t made[3 * kFilterLanes];
-    FilteredTriangles found{};
+    // Groups wait from the first on that has triangles to be cut, so that these come together.
+    constexpr uint32_t kGroups = CutFaces::kMost / kFilterLanes;
+    uint32_t made[kGroups][3 * kFilterLanes];
+    const uint32_t* corners[kGroups];
+    FilteredTriangles found[kGroups];
+    CutFaces cut(draw_, clipper_, facing_, segment_);
+    uint32_t waiting = 0;
+    const auto take_waiting = [&] {
+      cut.cut();
+      for (uint32_t i = 0; i < waiting; ++i) take_filtered(found[i], corners[i], Pattern::kProvoking, cut);
+      waiting = 0;
+    };
     while (count > 0) {
       const uint32_t group = std::min(count, kFilterLanes);
-      const uint32_t* corners = made;
+      corners[waiting] = made[waiting];
       if (std::is_same_v<Pattern, ListTriangles> && indices_ != nullptr) {
-        corners = indices_ + 3 * first;
+        corners[waiting] = indices_ + 3 * first;
       } else {
         for (uint32_t i = 0; i < group; ++i) {
           const Corners at = Pattern::at(first + i);
-          for (uint32_t k = 0; k < 3; ++k) made[3 * i + k] = vertex(at.v[k]);
+          for (uint32_t k = 0; k < 3; ++k) made[waiting][3 * i + k] = vertex(at.v[k]);
         }
       }
-      run_filter(filter_, corners, group, found);
-      take_filtered(found, corners, Pattern::kProvoking);
+      run_filter(filter_, corners[waiting], group, found[waiting]);
       first += group;
       count -= group;
+      if ((waiting | found[waiting].special) == 0) {
+        take_filtered(found[0], corners[0], Pattern::kProvoking, cut);
+        continue;
+      }
+      add_cut(found[waiting].special, corners[waiting], Pattern::kProvoking, cut);
+      if (++waiting == kGroups) take_waiting();
     }
+    if (waiting != 0) take_waiting();
   }
 
   void lines(Primitive mode, uint32_t first, uint32_t count) {
@@ -118,26 +130,29 @@ class Assembler {
     return uint32_t(segment_.primitives.size() - 1);
   }
 
-  bool is_back(int64_t area) const { return (area > 0) != front_is_ccw_; }
-  bool is_culled(int64_t area) const { return area >= culled_from_ && area <= culled_to_; }
+  void add_cut(uint32_t lanes, const uint32_t* corners, uint8_t provoking, CutFaces& cut) const {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const uint32_t* v = corners + 3 * std::countr_zero(lanes);
+      cut.add(v, unsigned{outcodes_[v[0]]} | outcodes_[v[1]] | outcodes_[v[2]], provoking);
+    }
+  }
 
-  void take_filtered(const FilteredTriangles& found, const uint32_t* corners, uint8_t provoking) {
+  void take_filtered(const FilteredTriangles& found, const uint32_t* corners, uint8_t provoking,
+                     CutFaces& cut) {
     const uint32_t taken = found.kept | found.special;
     segment_.culled += found.dropped;
     for (uint32_t todo = taken; todo != 0; todo &= todo - 1) {
       const auto lane = uint32_t(std::countr_zero(todo));
       const uint32_t* v = corners + 3 * lane;
-      if (found.special >> lane & 1) {
-        cut_triangle({{v[0], v[1], v[2]}}, unsigned{outcodes_[v[0]]} | outcodes_[v[1]] | outcodes_[v[2]],
-                     provoking);
-      } else {
+      if (found.special >> lane & 1)
+        bin_pieces(cut.next());
+      else
         bin_filtered(found, lane, v, provoking);
-      }
     }
   }
 
   void bin_filtered(const FilteredTriangles& found, uint32_t lane, const uint32_t* v, uint8_t provoking) {
-    const bool back = (found.clockwise >> lane & 1) == front_is_ccw_;
+    const bool back = (found.clockwise >> lane & 1) == facing_.front_is_ccw;
     const uint32_t primitive = append({{v[0], v[1], v[2]}, PrimitiveKind::triangle, false, back, provoking});
     if (found.in_one_tile >> lane & 1) return push_to_bin(segment_, size_t(found.tile[lane]), primitive);
     const TileBox tiles{found.tile_x0[lane], found.tile_y0[lane], found.tile_x1[lane], found.tile_y1[lane]};
@@ -151,34 +166,14 @@ class Assembler {
                      std::max(std::max(x0, x1), x2), std::max(std::max(y0, y1), y2), bounds_);
   }
 
-  void cut_triangle(const Corners& c, unsigned any, uint8_t provoking) {
-    ++segment_.clipped;
-    Clipper::Polygon polygon;
-    clipper_.clip_triangle(c.v, any, polygon);
-    const bool back = is_back(polygon.area);
-    PlaneSource planes;
-    if (polygon.count < 3 || is_culled(polygon.area) || !clipper_.triangle_planes(c.v, polygon, planes)) {
-      ++segment_.culled;
-      return;
+  void bin_pieces(const CutFaces::Pieces& pieces) {
+    for (uint32_t i = pieces.first; i < pieces.first + pieces.count; ++i) {
+      const CutTriangle& cut = segment_.cut_triangles[i];
+      const Rect box = triangle_box(cut.x[0], cut.y[0], cut.x[1], cut.y[1], cut.x[2], cut.y[2]);
+      if (box.empty()) continue;
+      const uint32_t primitive = append({{i, 0, cut.source}, PrimitiveKind::triangle, true, pieces.back, 0});
+      bin_triangle(segment_, tile_box(box), cut.x, cut.y, primitive);
     }
-    planes.provoking = c.v[provoking];
-    const auto source = uint32_t(segment_.plane_sources.size());
-    segment_.plane_sources.push_back(planes);
-    bool used = false;
-    for (int i = 0; i < polygon.triangle_count; ++i) used |= append_cut(polygon.triangle_at(i, source), back);
-    if (!used) segment_.plane_sources.pop_back();
-  }
-
-  bool append_cut(const CutTriangle& cut, bool back) {
-    const int64_t area = int64_t{cut.x[1] - cut.x[0]} * (cut.y[2] - cut.y[0]) -
-                         int64_t{cut.x[2] - cut.x[0]} * (cut.y[1] - cut.y[0]);
-    const Rect box = triangle_box(cut.x[0], cut.y[0], cut.x[1], cut.y[1], cut.x[2], cut.y[2]);
-    if (area == 0 || box.empty()) return false;
-    segment_.cut_triangles.push_back(cut);
-    const auto index = uint32_t(segment_.cut_triangles.size() - 1);
-    const uint32_t primitive = append({{index, 0, cut.source}, PrimitiveKind::triangle, true, back, 0});
-    bin_triangle(segment_, tile_box(box), cut.x, cut.y, primitive);
-    return true;
   }
 
   // Pixels a line of width 1 can reach: those its box touches, and one more for the diamonds beside it.
@@ -347,8 +342,7 @@ class Assembler {
   size_t stride_;
   const uint16_t* outcodes_;
   Rect bounds_;
-  bool front_is_ccw_;
-  int64_t culled_from_, culled_to_;  // signed areas that are dropped; 0 always is
+  FacingRule facing_;
   TriangleFilter filter_;
   Clipper clipper_;
   SetUpLinesFunction set_up_lines_ = set_up_lines();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "raster/primitive/clip_planes.h"
+#include "raster/primitive/triangle_cut.h"
 
 namespace halfspace::raster {
 
@@ -252,99 +253,24 @@ void Clipper::clip_triangle(const uint32_t v[3], unsigned outcodes, Polygon& out
     cut_ears(p, count, out.area, out);
 }
 
-namespace {
-
-// A corner of the whole triangle: (x / w, y / w) is its place in pixels relative to the anchor.
-struct HomogeneousCorner {
-  double x, y, w;
-  uint32_t vertex;
-};
-
-HomogeneousCorner corner_at(const ClipVertex& c, uint32_t vertex, const WindowTransform& t, double anchor_x,
-                            double anchor_y) {
-  constexpr double kPixel = 1.0 / kSubpixelScale;
-  return {(c.x * t.scale_x + c.w * (t.offset_x - anchor_x)) * kPixel,
-          (c.y * t.scale_y + c.w * (t.offset_y - anchor_y)) * kPixel, c.w, vertex};
-}
-
-bool precedes(const ClipVertex& a, const ClipVertex& b) {
-  if (a.x != b.x) return a.x < b.x;
-  if (a.y != b.y) return a.y < b.y;
-  if (a.w != b.w) return a.w < b.w;
-  return a.z < b.z;
-}
-
-// By position, so that the order the vertices came in changes no bit.
-void sort_corners(const ClipVertex* clip, uint32_t v[3]) {
-  if (precedes(clip[v[1]], clip[v[0]])) std::swap(v[0], v[1]);
-  if (precedes(clip[v[2]], clip[v[1]])) std::swap(v[1], v[2]);
-  if (precedes(clip[v[1]], clip[v[0]])) std::swap(v[0], v[1]);
-}
-
-// The inverse of the matrix with the corners as columns: row i, times (x, y, 1), is corner i's weight over w.
-struct Adjugate {
-  Plane row[3];  // f0: constant term
-  bool usable;
-};
-
-Adjugate invert(const HomogeneousCorner (&c)[3]) {
-  Adjugate result{};
-  double cofactor_x[3], cofactor_y[3], cofactor_1[3];
-  for (int i = 0; i < 3; ++i) {
-    const HomogeneousCorner &j = c[(i + 1) % 3], &k = c[(i + 2) % 3];
-    cofactor_x[i] = j.y * k.w - k.y * j.w;
-    cofactor_y[i] = k.x * j.w - j.x * k.w;
-    cofactor_1[i] = j.x * k.y - k.x * j.y;
+int Clipper::Polygon::lowest() const {
+  int best = 0;
+  for (int i = 1; i < count; ++i) {
+    if (is_lower(x[i], y[i], x[best], y[best])) best = i;
   }
-  const double det = (c[0].w * cofactor_1[0] + c[1].w * cofactor_1[1]) + c[2].w * cofactor_1[2];
-  const double scale = 1.0 / det;
-  result.usable = std::isfinite(det) && std::isfinite(scale);
-  for (int i = 0; i < 3; ++i) {
-    result.row[i] = {cofactor_1[i] * scale, cofactor_x[i] * scale, cofactor_y[i] * scale};
-  }
-  return result;
+  return best;
 }
-
-Plane combine(const Adjugate& a, double f0, double f1, double f2) {
-  const Plane *r0 = &a.row[0], *r1 = &a.row[1], *r2 = &a.row[2];
-  return {(f0 * r0->f0 + f1 * r1->f0) + f2 * r2->f0, (f0 * r0->dfdx + f1 * r1->dfdx) + f2 * r2->dfdx,
-          (f0 * r0->dfdy + f1 * r1->dfdy) + f2 * r2->dfdy};
-}
-
-bool is_finite(const Plane& p) {
-  return std::isfinite(p.f0) && std::isfinite(p.dfdx) && std::isfinite(p.dfdy);
-}
-
-}  // namespace
 
 bool Clipper::triangle_planes(const uint32_t v[3], const Polygon& polygon, PlaneSource& out) const {
-  out.x0 = polygon.x[0], out.y0 = polygon.y[0];
-  for (int i = 1; i < polygon.count; ++i) {
-    if (is_lower(polygon.x[i], polygon.y[i], out.x0, out.y0)) out.x0 = polygon.x[i], out.y0 = polygon.y[i];
-  }
-  const ClipVertex* clip = draw_.vertices.clip.data();
-  uint32_t sorted[3] = {v[0], v[1], v[2]};
-  sort_corners(clip, sorted);
-  HomogeneousCorner corners[3];
-  for (int i = 0; i < 3; ++i) corners[i] = corner_at(clip[sorted[i]], sorted[i], window_, out.x0, out.y0);
-  const Adjugate inverse = invert(corners);
-  if (!inverse.usable) return false;
-  // z / w is linear in the window; depth is that, scaled and moved by the depth range.
-  Plane depth = combine(inverse, clip[sorted[0]].z, clip[sorted[1]].z, clip[sorted[2]].z);
-  depth = {depth.f0 * window_.depth_scale + window_.depth_offset, depth.dfdx * window_.depth_scale,
-           depth.dfdy * window_.depth_scale};
-  out.planes[0] = depth;
-  out.planes[1] = combine(inverse, 1, 1, 1);
-  bool usable = is_finite(depth) && is_finite(out.planes[1]);
-  const bool back = (polygon.area > 0) != draw_.state->raster.front_is_ccw;
-  for (int k = 0; k < draw_.vertices.layout.attribute_count; ++k) {
-    const int at = draw_.vertices.layout.place(k, back);
-    const ShadedVertices& vertices = draw_.vertices;
-    out.planes[2 + k] = combine(inverse, vertices.attribute(sorted[0], at), vertices.attribute(sorted[1], at),
-                                vertices.attribute(sorted[2], at));
-    usable = usable && is_finite(out.planes[2 + k]);
-  }
-  return usable;
+  PlaneJob job;
+  const int anchor = polygon.lowest();
+  job.count = 1;
+  std::copy_n(v, 3, job.v[0]);
+  job.back[0] = (polygon.area > 0) != draw_.state->raster.front_is_ccw;
+  job.anchor_x[0] = polygon.x[anchor], job.anchor_y[0] = polygon.y[anchor];
+  triangle_cut_functions().make_planes(draw_.vertices, window_, job);
+  out = job.planes[0];
+  return job.usable != 0;
 }
 
 }  // namespace halfspace::raster

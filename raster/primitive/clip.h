@@ -13,6 +13,11 @@ inline constexpr int kMaxPolygonVertices = 10 + kMaxClipPlanes;
 // Bit of user plane i in the codes the clipper takes, beside the vertex stage's outcodes.
 constexpr unsigned user_outcode(int i) { return 0x10000u << i; }
 
+// Twice the signed area, 16.8 squared.
+inline int64_t triangle_area(const int32_t (&x)[3], const int32_t (&y)[3]) {
+  return int64_t{x[1] - x[0]} * (y[2] - y[0]) - int64_t{x[2] - x[0]} * (y[1] - y[0]);
+}
+
 // Clips one draw's primitives. Holds what does not change over a draw.
 class Clipper {
  public:
@@ -26,6 +31,8 @@ class Clipper {
     int triangle_count = 0;
     uint8_t triangle[kMaxPolygonVertices - 2][3];  // corners; none turns the other way than the whole
 
+    // Its lowest corner, then leftmost.
+    int lowest() const;
     CutTriangle triangle_at(int i, uint32_t source) const {
       const uint8_t(&t)[3] = triangle[i];
       return {{x[t[0]], x[t[1]], x[t[2]]}, {y[t[0]], y[t[1]], y[t[2]]}, source};

@@ -137,10 +137,6 @@ class ShapeAssembler {
     return plan_.smooth_polygons ? PrimitiveKind::smooth_triangle : PrimitiveKind::triangle;
   }
 
-  static int64_t triangle_area(const int32_t (&x)[3], const int32_t (&y)[3]) {
-    return int64_t{x[1] - x[0]} * (y[2] - y[0]) - int64_t{x[2] - x[0]} * (y[1] - y[0]);
-  }
-
   void bin_filled(const PrimitiveRef& ref, const int32_t (&x)[3], const int32_t (&y)[3]) {
     // A smooth triangle reaches every pixel it touches, half a pixel beyond the last centre.
     const int32_t reach = plan_.smooth_polygons ? kSubpixelScale / 2 : 0;
