@@ -94,16 +94,19 @@ bool has_sizes_of_two(const TextureLevel& level) {
   return is_power(level.width) && is_power(level.height);
 }
 
+// Coordinates that divide by w in float leave it to whoever comes later; whether these do.
+bool leave_w(StageId& coord) {
+  if (coord == StageId::coord_perspective) coord = StageId::coord_perspective_and_w;
+  return coord == StageId::coord_perspective_and_w;
+}
+
 void add_level_lookup(const Accuracy& accuracy, bool projective, StageList& list) {
   using enum StageId;
-  StageId& coord = list.ids[static_cast<size_t>(list.count - 1)];
-  const bool in_float = coord == coord_perspective || coord == coord_perspective_and_w;
   if (accuracy.lod == Level::exact) {
     list.add(projective ? lambda_projective_exact : lambda_exact);
   } else if (accuracy.lod == Level::draft) {
     list.add(lambda_of_primitive);
-  } else if (in_float) {
-    coord = coord_perspective_and_w;
+  } else if (leave_w(list.ids[static_cast<size_t>(list.count - 1)])) {
     list.add(lambda_at_w);
   } else {
     list.add(projective ? lambda_projective : lambda);
@@ -172,10 +175,8 @@ void add_texture_stages(const DrawState& state, const VertexLayout& layout, unsi
   const StageId env = env_stage(mode, view.base_format, is_opaque(view));
   StageId coord = coord_stage(state, layout, variant);
   StageId color = color_stage(state, layout, variant);
-  if (coord == StageId::coord_perspective && color == StageId::color_perspective && env != StageId::replace_rgba) {
-    coord = StageId::coord_perspective_and_w;
+  if (color == StageId::color_perspective && env != StageId::replace_rgba && leave_w(coord))
     color = StageId::color_perspective_at_w;
-  }
   list.add(coord);
   add_lookup(view, state.accuracy, layout.projective, list);
   if (env != StageId::replace_rgba && !layout.given_color) list.add(color);
@@ -330,12 +331,9 @@ StageId fog_stage(const DrawState& state, unsigned variant) {
 // Where coordinates have divided by 1/w, fog need not.
 void add_fog(const DrawState& state, unsigned variant, StageList& list) {
   StageId fog = fog_stage(state, variant);
-  for (StageId& id : list.ids) {
-    if (fog != StageId::fog_perspective) break;
-    if (id != StageId::coord_perspective && id != StageId::coord_perspective_and_w) continue;
-    id = StageId::coord_perspective_and_w;
+  const auto last = list.ids.begin() + list.count;
+  if (fog == StageId::fog_perspective && std::any_of(list.ids.begin(), last, leave_w))
     fog = StageId::fog_perspective_at_w;
-  }
   list.add(fog);
 }
 
