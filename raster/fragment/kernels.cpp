@@ -226,45 +226,39 @@ void RunTileBlocks(BlockContext& c) {
   RunBlocks<std::conditional_t<kKills, TileLanes<false>, FullTileLanes<false>>, ids...>(c);
 }
 
-// RunRowBlock where all of the block is live and stays so.
-template <class L, StageId... ids>
-HWY_INLINE void RunFullRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
-  const int first = block * kBlockPixels, slot = first % (kRowBlocks * kBlockPixels);
+// A part of a list on whole blocks of a row of a tile; slots count from the row's first pixel. L may be full lanes where
+// all of the block is live and stays so; what was worked out once is for any.
+template <class L, class Worked, StageId... ids>
+HWY_INLINE void RunRowGroups(BlockContext& c, const OnceAll<Worked, ids...>& once, int block) {
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...), kFull = IsFull<L>;
+  const int first = block * kBlockPixels, slots = block % kRowBlocks * kBlockPixels;
+  const uint64_t live = c.row_live[block % kRowBlocks];
+  uint64_t left = 0;
 #pragma GCC unroll 4
   for (int p = 0; p < kBlockPixels; p += kLanes) {
-    Lanes v;
-    v.live = MaskFromBits(kGroupBits);
-    LoadSlots<TakenSlots<ids...>()>(c, slot + p, v);
-    (Step<FullTileLanes<false>, L, ids>(c, once, first + p, v) && ...);
-    StoreSlots<LeftSlots<ids...>()>(v, slot + p, c);
-  }
-}
-
-// A part of a list on whole blocks of a row of a tile; slots count from the row's first pixel.
-template <class L, StageId... ids>
-HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
-  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
-  constexpr int kRowPixels = kRowBlocks * kBlockPixels;
-  const int first = block * kBlockPixels;
-  const uint64_t live = c.row_live[block % kRowBlocks];
-  if constexpr ((StoresPixels<typename BodyOf<ids>::Type> || ...) && !kKills)
-    if (live == ~uint64_t{0}) return RunFullRowBlock<L, ids...>(c, once, block);
-  uint64_t left = 0;
-  for (int p = 0; p < kBlockPixels; p += kLanes) {
-    const uint64_t group = live >> p & kGroupBits;
-    if (group == 0) continue;
-    const int i = first + p, slot = i % kRowPixels;
+    const uint64_t group = kFull ? kGroupBits : live >> p & kGroupBits;
+    if (!kFull && group == 0) continue;
     Lanes v;
     v.live = MaskFromBits(group);
-    LoadSlots<TakenSlots<ids...>()>(c, slot, v);
-    (Step<L, L, ids>(c, once, i, v) && ...);
-    StoreSlots<LeftSlots<ids...>()>(v, slot, c);
+    LoadSlots<TakenSlots<ids...>()>(c, slots + p, v);
+    (Step<L, Worked, ids>(c, once, first + p, v) && ...);
+    StoreSlots<LeftSlots<ids...>()>(v, slots + p, c);
     if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << p;
   }
   if constexpr (kKills) {
     c.row_live[block % kRowBlocks] = left;
     if (left == 0) c.blocks &= ~(uint64_t{1} << block);
   }
+}
+
+// Where pixels are stored, a block that is live all over has code of its own.
+template <class L, StageId... ids>
+HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
+  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  if constexpr ((StoresPixels<typename BodyOf<ids>::Type> || ...) && !kKills) {
+    if (c.row_live[block % kRowBlocks] == ~uint64_t{0}) return RunRowGroups<FullTileLanes<false>>(c, once, block);
+  }
+  RunRowGroups<L>(c, once, block);
 }
 
 // Stages that work out something for each block say so.
