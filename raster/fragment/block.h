@@ -92,20 +92,25 @@ struct TwoRows {
 template <class T>
 inline constexpr TwoRows<T> kTwoRows;
 
-// As many pixels of a tile as a kernel has lanes: the how many-th such group it is, the primitive it is of, as a lane of
-// its batch, and which pixels are live.
+// As many pixels of a tile as a kernel has lanes. From the lowest bit on: three that are 0, the how many-th
+// such group of the tile it is, from bit 13 on the primitive it is of, as a lane of its batch; then which
+// pixels are live.
 struct TileGroup {
-  static constexpr int kLaneShift = 12;
-  uint16_t place, live;
-  unsigned index() const { return place & ((1u << kLaneShift) - 1); }
-  int lane() const { return place >> kLaneShift; }
+  static constexpr int kIndexShift = 3, kLaneShift = 13, kLiveShift = 16;
+  uint32_t bits;
+  unsigned index() const { return bits >> kIndexShift & ((1u << (kLaneShift - kIndexShift)) - 1); }
+  int lane() const { return static_cast<int>(bits >> kLaneShift) % kSetupLanes; }
+  unsigned live() const { return bits >> kLiveShift; }
+  TileGroup with(unsigned live) const { return {(bits & 0xffff) | live << kLiveShift}; }
+  // Without a branch, which could not be guessed.
+  unsigned count() const { return bits >= 1u << kLiveShift ? 1 : 0; }
 };
 
 // Products of the depth planes of a batch's primitives along the columns and the rows of a tile, where groups of theirs
 // lie. A window of columns or rows may begin with any in the tile and reach beyond.
 struct GroupDepths {
   static constexpr int kColumns = 32, kRows = 16;  // of a window
-  alignas(64) double across[kSetupLanes][kTileSize + kColumns], row[kSetupLanes][kTileSize + kRows];
+  alignas(64) double across[kSetupLanes][2 * kTileSize], row[kSetupLanes][2 * kTileSize];
 };
 
 // Blocks side by side that a list of kernels takes in turn, each kernel all of them: what it works out ahead serves all.
@@ -150,6 +155,7 @@ struct alignas(64) BlockContext {
   const PixelQueue* queue;  // packed fragments instead of the block's, or unused
   TileGroup* groups;        // what primitives cover of a tile; then colour and depth are the tile's
   int group_count;
+  TileGroup group;          // that at hand
   unsigned group_lanes;     // bits of the lanes that the groups' primitives have in the batch
   const GroupDepths* group_depths;  // where groups may be of several primitives
   StageMeter* meter = nullptr;  // null: nothing is counted

@@ -19,22 +19,37 @@ inline constexpr TileSteps kTileSteps = [] {
   return steps;
 }();
 
+// A plane of all the batch's primitives. Planes beside it are so and so far from there.
+struct GroupPlaneTable {
+  const float (*f0)[kSetupLanes], (*dfdx)[kSetupLanes], (*dfdy)[kSetupLanes];
+  HWY_INLINE GroupPlaneTable(const SetupBatch& s, int plane)
+      : f0(s.f0_f + plane), dfdx(s.dfdx_f + plane), dfdy(s.dfdy_f + plane) {}
+  HWY_INLINE GroupPlaneTable operator+(int planes) const {
+    GroupPlaneTable other(*this);
+    other.f0 += planes, other.dfdx += planes, other.dfdy += planes;
+    return other;
+  }
+};
+
 struct GroupPlane {
   const BlockContext& c;
-  int plane;
-  HWY_INLINE GroupPlane(const BlockContext& context, int which) : c(context), plane(which) {}
+  const SetupBatch& s;
+  GroupPlaneTable table;
+  HWY_INLINE GroupPlane(const BlockContext& context, int plane)
+      : GroupPlane(context, plane, GroupPlaneTable(*context.setup, plane)) {}
+  HWY_INLINE GroupPlane(const BlockContext& context, int, const GroupPlaneTable& at)
+      : c(context), s(*context.setup), table(at) {}
   HWY_INLINE VF At(int i) const {
-    const SetupBatch& s = *c.setup;
-    const int lane = c.lane;
+    const auto lane = static_cast<size_t>(c.group.lane());
     const __m512 columns = _mm512_castpd_ps(
         _mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_load_ps(kTileSteps.single + ColumnInTile(i)))));
     const __m512 rows =
         _mm512_add_ps(_mm512_load_ps(kTwoRows<float>.row), _mm512_set1_ps(kTileSteps.single[RowInTile(i)]));
     const __m512 dx = _mm512_add_ps(columns, _mm512_set1_ps(s.anchor_x_f[lane]));
     const __m512 dy = _mm512_add_ps(rows, _mm512_set1_ps(s.anchor_y_f[lane]));
-    const __m512 up = _mm512_mul_ps(dy, _mm512_set1_ps(s.dfdy_f[plane][lane]));
-    const __m512 across = _mm512_mul_ps(dx, _mm512_set1_ps(s.dfdx_f[plane][lane]));
-    return VF{_mm512_add_ps(_mm512_add_ps(up, _mm512_set1_ps(s.f0_f[plane][lane])), across)};
+    const __m512 up = _mm512_mul_ps(dy, _mm512_set1_ps((*table.dfdy)[lane]));
+    const __m512 across = _mm512_mul_ps(dx, _mm512_set1_ps((*table.dfdx)[lane]));
+    return VF{_mm512_add_ps(_mm512_add_ps(up, _mm512_set1_ps((*table.f0)[lane])), across)};
   }
 };
 
@@ -44,7 +59,7 @@ struct GroupPlaneDouble {
   int plane;
   HWY_INLINE GroupPlaneDouble(const BlockContext& context, int which) : c(context), plane(which) {}
   HWY_INLINE VD At(int i) const {
-    if (plane == 0) return Depth(i);
+    if (plane == 0) return Depth();
     const SetupBatch& s = *c.setup;
     const int lane = c.lane;
     const __m512d dx =
@@ -60,9 +75,16 @@ struct GroupPlaneDouble {
   }
 
  private:
-  HWY_INLINE VD Depth(int i) const {
-    const __m512d across = _mm512_load_pd(c.group_depths->across[c.lane] + ColumnInTile(i));
-    const double* row = c.group_depths->row[c.lane] + RowInTile(i);
+  // Where in the tables is one instruction each, which closes up bits of a group. For what lies between them, the
+  // columns of a block, the rows of a pair and the tile's width beside a lane's values, a bit goes along that is 0.
+  static constexpr unsigned kLaneBits = 7u << TileGroup::kLaneShift | 1u << (TileGroup::kLaneShift - 1);
+  static constexpr unsigned kColumnBits = 7 << 5 | 7, kRowBits = 7 << 8 | 7 << 2;
+  static_assert(kBlockSize == 8 && kTileSize == 64 && kLanes == 16 && TileGroup::kIndexShift == 3);
+  HWY_INLINE VD Depth() const {
+    const unsigned bits = c.group.bits;
+    const double* column = c.group_depths->across[0] + _pext_u32(bits, kColumnBits | kLaneBits);
+    const double* row = c.group_depths->row[0] + _pext_u32(bits, kRowBits | kLaneBits);
+    const __m512d across = _mm512_load_pd(column);
     VD v;
     for (int p = 0; p < 2; ++p) v.part[p] = hn::Vec<DD>{_mm512_add_pd(_mm512_set1_pd(row[p]), across)};
     return v;
@@ -71,9 +93,9 @@ struct GroupPlaneDouble {
 
 struct GroupLevelPlane {
   const BlockContext& c;
-  int plane;
-  HWY_INLINE GroupLevelPlane(const BlockContext& context, int which) : c(context), plane(which) {}
-  HWY_INLINE VF At(int) const { return hn::Set(DF(), c.setup->f0_f[plane][c.lane]); }
+  const float (*f0)[kSetupLanes];
+  HWY_INLINE GroupLevelPlane(const BlockContext& context, int plane, const GroupPlaneTable& at) : c(context), f0(at.f0) {}
+  HWY_INLINE VF At(int) const { return hn::Set(DF(), (*f0)[c.group.lane()]); }
 };
 
 struct GroupFlatColor {

@@ -290,17 +290,16 @@ HWY_INLINE void RunListedGroups(BlockContext& c) {
   const OnceAll<L, ids...> once(c);
   TileGroup* left = c.groups;
   const TileGroup* const end = c.groups + c.group_count;
-  for (const TileGroup* group = c.groups; group != end; ++group) {
-    const uint16_t place = group->place;
-    const int i = static_cast<int>(group->index()) * kLanes;
-    if constexpr (kGroupsOfMany) c.lane = group->lane();
+  for (const TileGroup* at = c.groups; at != end; ++at) {
+    const TileGroup group = *at;
+    const int i = static_cast<int>(group.index()) * kLanes;
+    if constexpr (kGroupsOfMany) c.group = group, c.lane = group.lane();
     Lanes v;
-    v.live = MaskFromBits(group->live);
+    v.live = MaskFromBits(group.live());
     (Step<L, L, ids>(c, once, i, v) && ...);
     if constexpr (kKills) {
-      const unsigned live = MaskBits(v.live);
-      *left = {place, static_cast<uint16_t>(live)};
-      left += live != 0 ? 1 : 0;
+      *left = group.with(static_cast<unsigned>(MaskBits(v.live)));
+      left += left->count();
     }
   }
   if constexpr (kKills) c.group_count = static_cast<int>(left - c.groups);

@@ -61,10 +61,10 @@ struct TilePlane {
   }
 };
 
-// Plane `first` + `step`, beside `before`, which is the first.
+// Plane `first` + `step`, beside `before`, which is the first: by its table, if planes have one.
 template <class Plane, class Before>
 HWY_INLINE Plane PlaneAfter(const BlockContext& c, const Before& before, int first, int step) {
-  if constexpr (std::is_same_v<Plane, TilePlane> && std::is_same_v<Before, TilePlane>)
+  if constexpr (requires { Plane(c, first + step, before.table + step); })
     return Plane(c, first + step, before.table + step);
   else
     return Plane(c, first + step);

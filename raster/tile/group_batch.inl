@@ -64,8 +64,8 @@ struct SpanBatch {
     store(high, height);
     const __m256i column = _mm256_srli_epi32(x, 3), row = _mm256_srli_epi32(y, 3);
     const __m256i lane = _mm256_slli_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), TileGroup::kLaneShift);
-    store(_mm256_add_epi32(_mm256_add_epi32(_mm256_slli_epi32(row, 5), _mm256_slli_epi32(column, 2)), lane),
-          place);
+    const __m256i index = _mm256_add_epi32(_mm256_slli_epi32(row, 5), _mm256_slli_epi32(column, 2));
+    store(_mm256_add_epi32(_mm256_slli_epi32(index, TileGroup::kIndexShift), lane), place);
     store(_mm256_and_si256(_mm256_srli_epi32(y, 1), all(3)), phase);
     _mm512_store_si512(rows, Range(_mm256_sub_epi32(min_y, y), high));
     // The row of columns, in all rows.
@@ -97,7 +97,8 @@ inline constexpr SpanPlaces kSpanPlaces = [] {
   SpanPlaces places{};
   for (int phase = 0; phase < 4; ++phase)
     for (int i = 0; i < 16; ++i)
-      places.of[phase][i] = (phase + i / 2) / 4 * 32 + (phase + i / 2) % 4 + i % 2 * 8;
+      places.of[phase][i] = ((phase + i / 2) / 4 * 32 + (phase + i / 2) % 4 + i % 2 * 8)
+                            << TileGroup::kIndexShift;
   return places;
 }();
 
@@ -129,10 +130,10 @@ HWY_INLINE __m512i AddWindow(const SpanBatch& b, int lane, int x, int y, GroupLi
   const __m128i turn = _mm_setr_epi8(0, 4, 1, 5, 2, 6, 3, 7, 8, 12, 9, 13, 10, 14, 11, 15);
   const __m512i groups = _mm512_shuffle_epi8(bits, _mm512_broadcast_i32x4(turn));
   const __m512i places = _mm512_add_epi32(_mm512_load_si512(kSpanPlaces.of[b.phase[lane]]),
-                                          _mm512_set1_epi32(b.place[lane] + x / 2 + y * 4));
-  list.AddSome(_mm512_slli_epi32(groups, 16), places);
-  list.AddSome(_mm512_and_si512(groups, _mm512_set1_epi32(-1 << 16)),
-               _mm512_add_epi32(places, _mm512_set1_epi32(4)));
+                                          _mm512_set1_epi32(b.place[lane] + ((x / 2 + y * 4) << TileGroup::kIndexShift)));
+  list.AddSome(_mm512_slli_epi32(groups, TileGroup::kLiveShift), places);
+  list.AddSome(_mm512_and_si512(groups, _mm512_set1_epi32(-1 << TileGroup::kLiveShift)),
+               _mm512_add_epi32(places, _mm512_set1_epi32(4 << TileGroup::kIndexShift)));
   const __m512i length = _mm512_sub_epi32(right, left);
   return _mm512_maskz_max_epi32(rows, _mm512_add_epi32(length, _mm512_set1_epi32(1)), _mm512_setzero_si512());
 }

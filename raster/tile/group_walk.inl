@@ -97,10 +97,11 @@ struct GroupList {
   // Without a branch: what is empty is written over by the next one.
   HWY_INLINE void Add(int block, uint64_t mask) {
     for (int i = 0; i < kBlockPixels; i += kGroupLanes) {
-      const auto live = static_cast<uint16_t>(mask >> i & ((uint64_t{1} << kGroupLanes) - 1));
+      const auto live = static_cast<unsigned>(mask >> i & ((uint64_t{1} << kGroupLanes) - 1));
       const int index = (block * kBlockPixels + i) / kGroupLanes;
-      groups[count] = {static_cast<uint16_t>(index | lane << TileGroup::kLaneShift), live};
-      count += live != 0 ? 1 : 0;
+      const int place = index << TileGroup::kIndexShift | lane << TileGroup::kLaneShift;
+      groups[count] = TileGroup{static_cast<uint32_t>(place)}.with(live);
+      count += static_cast<int>(groups[count].count());
     }
     fragments += static_cast<uint64_t>(__builtin_popcountll(mask));
   }
@@ -229,7 +230,8 @@ struct BlockMasks {
   HWY_INLINE uint64_t Of(int block) const { return masks[block]; }
   HWY_INLINE void AddTo(GroupList& list, uint64_t blocks) const {
     const int first = __builtin_ctzll(blocks) / 8, last = (63 - __builtin_clzll(blocks)) / 8;
-    const __m512i index = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i index = _mm512_slli_epi32(
+        _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15), TileGroup::kIndexShift);
     const int lane_bits = list.lane << TileGroup::kLaneShift;
     for (int row = first; row <= last; ++row) {
       const __m512i some =
@@ -239,8 +241,9 @@ struct BlockMasks {
       for (const uint64_t mask : each) list.fragments += static_cast<uint64_t>(__builtin_popcountll(mask));
       for (int half = 0; half < 2; ++half) {
         const __m256i words = half == 0 ? _mm512_castsi512_si256(some) : _mm512_extracti64x4_epi64(some, 1);
-        const __m512i live = _mm512_slli_epi32(_mm512_cvtepu16_epi32(words), 16);
-        list.AddSome(live, _mm512_add_epi32(index, _mm512_set1_epi32(lane_bits | (row * 32 + half * 16))));
+        const __m512i live = _mm512_slli_epi32(_mm512_cvtepu16_epi32(words), TileGroup::kLiveShift);
+        const int first_index = (row * 32 + half * 16) << TileGroup::kIndexShift;
+        list.AddSome(live, _mm512_add_epi32(index, _mm512_set1_epi32(lane_bits | first_index)));
       }
     }
   }
