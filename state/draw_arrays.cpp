@@ -19,14 +19,18 @@ constexpr size_t kPageBytes = 4096;
 
 // Whether the byte at `address` can be read. GL cannot know how long an array is; this catches the index that
 // points out of all memory before it ends the program. A page once found readable is not asked for again.
+[[gnu::noinline]] bool system_can_read(const std::byte* address) {
+  std::byte value;
+  const iovec local{&value, 1}, remote{const_cast<std::byte*>(address), 1};
+  // Where the system refuses to look on our behalf, nothing was learned, and the array is taken as it is.
+  return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) >= 0 || errno != EFAULT;
+}
+
 bool is_readable(VertexArrayState& arrays, const std::byte* address) {
   const uintptr_t page = reinterpret_cast<uintptr_t>(address) / kPageBytes;
   uintptr_t& known = arrays.readable_pages[page % arrays.readable_pages.size()];
   if (known == page) return page != 0;
-  std::byte value;
-  const iovec local{&value, 1}, remote{const_cast<std::byte*>(address), 1};
-  // Where the system refuses to look on our behalf, nothing was learned, and the array is taken as it is.
-  if (process_vm_readv(getpid(), &local, 1, &remote, 1, 0) < 0 && errno == EFAULT) return false;
+  if (!system_can_read(address)) return false;
   known = page;
   return true;
 }

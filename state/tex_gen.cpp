@@ -73,11 +73,6 @@ raster::TexGenState derive_tex_gen(const TexGenState& state) {
   return out;
 }
 
-bool generates_from_normals(const TexGenState& state) {
-  return std::any_of(state.coord.begin(), state.coord.end(),
-                     [](const TexGenCoordState& c) { return c.enabled && c.mode == GL_SPHERE_MAP; });
-}
-
 namespace op {
 
 void tex_gen(Context& context, GLenum coord, GLenum pname, const GLdouble* params) {

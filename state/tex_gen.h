@@ -29,6 +29,10 @@ struct TexGenState {
 raster::TexGenState derive_tex_gen(const TexGenState& state);
 
 // Whether a coordinate is made from the normal.
-bool generates_from_normals(const TexGenState& state);
+inline bool generates_from_normals(const TexGenState& state) {
+  for (const TexGenCoordState& c : state.coord)
+    if (c.enabled && c.mode == GL_SPHERE_MAP) return true;
+  return false;
+}
 
 }  // namespace halfspace::state

@@ -69,10 +69,6 @@ Converter find_converter(GLenum type, Conversion conversion) {
   }
 }
 
-const std::byte* address_of(const ClientArray& array, size_t index) {
-  return static_cast<const std::byte*>(array.pointer) + index * stride_bytes(array);
-}
-
 }  // namespace
 
 size_t type_bytes(GLenum type) {
@@ -90,16 +86,9 @@ size_t type_bytes(GLenum type) {
   }
 }
 
-size_t element_bytes(const ClientArray& array) { return size_t(array.size) * type_bytes(array.type); }
-
-size_t stride_bytes(const ClientArray& array) {
-  return array.stride ? size_t(array.stride) : element_bytes(array);
-}
-
-raster::AttributeStream fetch_range(const ClientArray& array, Conversion conversion, size_t first,
-                                    size_t count, std::vector<float>& scratch) {
+raster::AttributeStream convert_range(const ClientArray& array, Conversion conversion, size_t first,
+                                      size_t count, std::vector<float>& scratch) {
   const std::byte* source = address_of(array, first);
-  if (array.type == GL_FLOAT) return {source, stride_bytes(array), uint8_t(array.size)};
   const bool color_bytes =
       array.type == GL_UNSIGNED_BYTE && array.size == 4 && conversion == Conversion::normalized;
   if (color_bytes) return {source, stride_bytes(array), 4, true};
