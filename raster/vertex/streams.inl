@@ -75,12 +75,21 @@ struct QuadReader {
     }
     if (HWY_LIKELY(i < careful))
       return hn::IfThenElse(given, hn::LoadU(Quads(), reinterpret_cast<const float*>(p)), missing);
+    return load_given(p);
+  }
+  HWY_INLINE QuadVec get_or_missing(uint32_t i, uint32_t count) const { return i < count ? get(i) : missing; }
+
+ private:
+  // Not written in parts to be read whole, where that can be helped.
+  HWY_INLINE QuadVec load_given(const unsigned char* p) const {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    return hn::IfThenElse(given, hn::MaskedLoad(given, Quads(), reinterpret_cast<const float*>(p)), missing);
+#else
     float v[4];
     load_element(p, size, fallback, v);
     return hn::LoadU(Quads(), v);
+#endif
   }
-
- private:
   static HWY_INLINE uint32_t careful_elements(const StreamRef& stream, uint32_t count) {
     const size_t lacking = size_t(4 - stream.size) * sizeof(float);
     if (lacking == 0) return 0;
@@ -92,14 +101,35 @@ struct QuadReader {
 // How far ahead of what is read memory is asked for, in bytes: arrays of a million vertices come from beyond the caches.
 inline constexpr size_t kPrefetch = 2048;
 
-HWY_INLINE void store_columns(QuadVec a, QuadVec b, QuadVec c, QuadVec e, int columns, uint32_t i,
+// Four elements as columns.
+struct FourColumns {
+  QuadVec column[4];
+
+  HWY_INLINE FourColumns(QuadVec a, QuadVec b, QuadVec c, QuadVec e) {
+    const Quads d;
+    const QuadVec low_ab = hn::InterleaveLower(d, a, b), low_ce = hn::InterleaveLower(d, c, e);
+    const QuadVec high_ab = hn::InterleaveUpper(d, a, b), high_ce = hn::InterleaveUpper(d, c, e);
+    column[0] = hn::ConcatLowerLower(d, low_ce, low_ab), column[1] = hn::ConcatUpperUpper(d, low_ce, low_ab);
+    column[2] = hn::ConcatLowerLower(d, high_ce, high_ab), column[3] = hn::ConcatUpperUpper(d, high_ce, high_ab);
+  }
+  // From element i on, of `count`; what lies beyond is as `missing`.
+  HWY_INLINE FourColumns(const QuadReader& quads, uint32_t i, uint32_t count)
+      : FourColumns(i + 4 <= count ? FourColumns(quads.get(i), quads.get(i + 1), quads.get(i + 2), quads.get(i + 3))
+                                   : FourColumns(quads.get_or_missing(i, count), quads.get_or_missing(i + 1, count),
+                                                 quads.get_or_missing(i + 2, count), quads.missing)) {}
+};
+
+// Eight elements of each column: a vector of doubles is made of what one store has written, or waits for it.
+HWY_INLINE void store_columns(const FourColumns& low, const FourColumns& high, int columns, uint32_t i,
                               float (*out)[kVertexGroup]) {
-  const Quads d;
-  const QuadVec low_ab = hn::InterleaveLower(d, a, b), low_ce = hn::InterleaveLower(d, c, e);
-  const QuadVec high_ab = hn::InterleaveUpper(d, a, b), high_ce = hn::InterleaveUpper(d, c, e);
-  const QuadVec column[4] = {hn::ConcatLowerLower(d, low_ce, low_ab), hn::ConcatUpperUpper(d, low_ce, low_ab),
-                             hn::ConcatLowerLower(d, high_ce, high_ab), hn::ConcatUpperUpper(d, high_ce, high_ab)};
-  for (int k = 0; k < columns; ++k) hn::Store(column[k], d, out[k] + i);
+  for (int k = 0; k < columns; ++k) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    const hn::CappedTag<float, 8> d;
+    hn::Store(hn::Combine(d, high.column[k], low.column[k]), d, out[k] + i);
+#else
+    hn::Store(low.column[k], Quads(), out[k] + i), hn::Store(high.column[k], Quads(), out[k] + i + 4);
+#endif
+  }
 }
 
 // The first `columns` floats of each element, missing ones from `fallback`. Columns are filled up to a multiple of the
@@ -108,19 +138,14 @@ HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t c
                              const float* fallback, float (*out)[kVertexGroup]) {
   const QuadReader quads(stream, first, count, fallback);
   uint32_t i = 0;
-  const size_t step = 4 * stream.stride;
-  for (; i + 4 <= count; i += 4) {
+  const size_t step = 8 * stream.stride;
+  for (; i < count; i += 8) {
     const unsigned char* ahead = quads.from + size_t{i} * stream.stride + kPrefetch;
     for (size_t k = 0; k < step; k += 64) __builtin_prefetch(ahead + k);
-    store_columns(quads.get(i), quads.get(i + 1), quads.get(i + 2), quads.get(i + 3), columns, i, out);
+    store_columns(FourColumns(quads, i, count), FourColumns(quads, i + 4, count), columns, i, out);
   }
-  const QuadVec none = quads.missing;
-  if (i < count) {
-    store_columns(quads.get(i), i + 1 < count ? quads.get(i + 1) : none, i + 2 < count ? quads.get(i + 2) : none, none,
-                  columns, i, out);
-    i += 4;
-  }
-  for (; i % kLongestVector != 0; i += 4) store_columns(none, none, none, none, columns, i, out);
+  const FourColumns none(quads.missing, quads.missing, quads.missing, quads.missing);
+  for (; i % kLongestVector != 0; i += 8) store_columns(none, none, columns, i, out);
 }
 
 // Vertices' own colours, held to [0, 1]: with comparisons and selects, since levels disagree in min and max about NaN
