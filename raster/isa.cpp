@@ -79,8 +79,11 @@ Isa choose() {
   return best_up_to(kHighest);
 }
 
+// Kept out of chosen(), which draws call several times.
+[[gnu::noinline, gnu::cold]] Isa choose_once() { return choose(); }
+
 std::atomic<Isa>& chosen() {
-  static std::atomic<Isa> isa{choose()};
+  static std::atomic<Isa> isa{choose_once()};
   return isa;
 }
 

@@ -27,9 +27,11 @@ inline void read_element(const AttributeStream& stream, uint32_t vertex, float (
   const auto* from = static_cast<const unsigned char*>(stream.data) + size_t{vertex} * stream.stride;
   if (stream.bytes) {
     for (int k = 0; k < 4; ++k) v[k] = static_cast<float>(from[k]) / 255.0f;
-  } else {
-    std::memcpy(v, from, stream.size * sizeof(float));
+    return;
   }
+  // Not one copy of a size that is only known here: to start one takes longer than these.
+  for (size_t k = 0; k < 4; ++k)
+    if (k < stream.size) std::memcpy(v + k, from + k * sizeof(float), sizeof(float));
 }
 
 struct VertexBatch {

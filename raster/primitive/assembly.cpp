@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <type_traits>
 
 #include "raster/fragment/program.h"
@@ -57,8 +58,7 @@ class Assembler {
         facing_(draw.state->raster),
         filter_{records_,       stride_,         draw.vertices.all_inside ? nullptr : outcodes_,
                 bounds_,        facing_.cull_cw, facing_.cull_ccw,
-                segment.tiles_x},
-        clipper_(draw) {}
+                segment.tiles_x} {}
 
   template <class Pattern>
   void faces(uint32_t first, uint32_t count) {
@@ -69,11 +69,11 @@ class Assembler {
     uint32_t made[kGroups][3 * kFilterLanes];
     const uint32_t* corners[kGroups];
     FilteredTriangles found[kGroups];
-    CutFaces cut(draw_, clipper_, facing_, segment_);
+    std::optional<CutFaces> cut;  // once there are some
     uint32_t waiting = 0;
     const auto take_waiting = [&] {
-      cut.cut();
-      for (uint32_t i = 0; i < waiting; ++i) take_filtered(found[i], corners[i], Pattern::kProvoking, cut);
+      cut->cut();
+      for (uint32_t i = 0; i < waiting; ++i) take_filtered(found[i], corners[i], Pattern::kProvoking, &*cut);
       waiting = 0;
     };
     while (count > 0) {
@@ -91,10 +91,11 @@ class Assembler {
       first += group;
       count -= group;
       if ((waiting | found[waiting].special) == 0) {
-        take_filtered(found[0], corners[0], Pattern::kProvoking, cut);
+        take_filtered(found[0], corners[0], Pattern::kProvoking, nullptr);
         continue;
       }
-      add_cut(found[waiting].special, corners[waiting], Pattern::kProvoking, cut);
+      if (!cut) cut.emplace(draw_, clipper(), facing_, segment_);
+      add_cut(found[waiting].special, corners[waiting], Pattern::kProvoking, *cut);
       if (++waiting == kGroups) take_waiting();
     }
     if (waiting != 0) take_waiting();
@@ -130,6 +131,11 @@ class Assembler {
     return uint32_t(segment_.primitives.size() - 1);
   }
 
+  const Clipper& clipper() {
+    if (!clipper_) clipper_.emplace(draw_);
+    return *clipper_;
+  }
+
   void add_cut(uint32_t lanes, const uint32_t* corners, uint8_t provoking, CutFaces& cut) const {
     for (; lanes != 0; lanes &= lanes - 1) {
       const uint32_t* v = corners + 3 * std::countr_zero(lanes);
@@ -138,14 +144,14 @@ class Assembler {
   }
 
   void take_filtered(const FilteredTriangles& found, const uint32_t* corners, uint8_t provoking,
-                     CutFaces& cut) {
+                     CutFaces* cut) {
     const uint32_t taken = found.kept | found.special;
     segment_.culled += found.dropped;
     for (uint32_t todo = taken; todo != 0; todo &= todo - 1) {
       const auto lane = uint32_t(std::countr_zero(todo));
       const uint32_t* v = corners + 3 * lane;
       if (found.special >> lane & 1)
-        bin_pieces(cut.next());
+        bin_pieces(cut->next());
       else
         bin_filtered(found, lane, v, provoking);
     }
@@ -197,7 +203,7 @@ class Assembler {
     const uint32_t v[2] = {from, to};
     CutTriangle cut;
     PlaneSource planes;
-    if (!clipper_.clip_line(v, any, cut, planes)) return;
+    if (!clipper().clip_line(v, any, cut, planes)) return;
     const Rect box = line_box(cut.x, cut.y);
     if (box.empty()) return;
     cut.source = uint32_t(segment_.plane_sources.size());
@@ -231,10 +237,11 @@ class Assembler {
     const size_t largest =
         line_packet_bytes(1 + draw_.vertices.layout.attribute_count, draw_.program->reads_depth);
     segment_.packets.start_draw(segment_.bins.size(), largest);
+    const SetUpLinesFunction make_group = set_up_lines();
     WaitingLines lines[2];
     int now = 0;
     const auto set_up = [&] {
-      if (lines[now].count != 0) set_up_lines_(draw_, lines[now].ends, lines[now].count, lines[now].group);
+      if (lines[now].count != 0) make_group(draw_, lines[now].ends, lines[now].count, lines[now].group);
       now = 1 - now;
       bin_packets(lines[now]);
     };
@@ -344,8 +351,7 @@ class Assembler {
   Rect bounds_;
   FacingRule facing_;
   TriangleFilter filter_;
-  Clipper clipper_;
-  SetUpLinesFunction set_up_lines_ = set_up_lines();
+  std::optional<Clipper> clipper_;  // once something is cut
 };
 
 // Idempotent, so that a draw may come in several ranges.

@@ -175,16 +175,17 @@ HWY_INLINE unsigned filter_lanes(const TriangleFilter& filter, uint32_t i, unsig
   return filled & (~small | mask_bits(covers_center(c, box, hn::LoadU(d, turns + i), width, height)));
 }
 
-// Where the corners of all lanes lie; lanes beyond `count` get some corner or other.
+// Where the corners of all lanes lie; lanes beyond `count` get those of the first triangle.
 HWY_INLINE void load_places(const TriangleFilter& filter, const uint32_t* corners, uint32_t count,
                             FilteredTriangles& out) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   // In registers: what is stored narrow and read wide stalls.
-  if (HWY_LIKELY(count == kFilterLanes)) {
+  const auto load = [&](auto&& triangle_of) HWY_ATTR {
     for (uint32_t k = 0; k < 3; ++k) {
       const auto two = [&](uint32_t a, uint32_t b) HWY_ATTR {
         const auto at = [&](uint32_t lane) HWY_ATTR {
-          return reinterpret_cast<const __m64*>(filter.records + corners[3 * lane + k] * filter.stride);
+          return reinterpret_cast<const __m64*>(filter.records +
+                                                corners[3 * triangle_of(lane) + k] * filter.stride);
         };
         return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at(a)))), at(b));
       };
@@ -193,17 +194,21 @@ HWY_INLINE void load_places(const TriangleFilter& filter, const uint32_t* corner
       _mm256_storeu_ps(reinterpret_cast<float*>(out.x[k]), _mm256_shuffle_ps(even, odd, 0x88));
       _mm256_storeu_ps(reinterpret_cast<float*>(out.y[k]), _mm256_shuffle_ps(even, odd, 0xdd));
     }
-    return;
-  }
-#endif
-  for (uint32_t lane = 0; lane < count; ++lane) {
+  };
+  if (HWY_LIKELY(count == kFilterLanes))
+    load([](uint32_t lane) HWY_ATTR { return lane; });
+  else
+    load([count](uint32_t lane) HWY_ATTR { return lane < count ? lane : 0; });
+#else
+  for (uint32_t lane = 0; lane < kFilterLanes; ++lane) {
+    const uint32_t* triangle = corners + 3 * (lane < count ? lane : 0);
     for (int k = 0; k < 3; ++k) {
-      const auto* place =
-          reinterpret_cast<const Place*>(filter.records + corners[3 * lane + uint32_t(k)] * filter.stride);
+      const auto* place = reinterpret_cast<const Place*>(filter.records + triangle[k] * filter.stride);
       out.x[k][lane] = place->x;
       out.y[k][lane] = place->y;
     }
   }
+#endif
 }
 
 void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint32_t count,
