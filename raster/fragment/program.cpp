@@ -525,6 +525,8 @@ void build_program(const DrawState& state, const VertexLayout& layout, ColorForm
   CodeKey key;
   for (unsigned variant = 0; variant < kVariantCount; ++variant)
     key.lists[variant] = list_stages(state, layout, format, variant);
+  program.flat_shading = state.raster.flat_shading;
+  program.stippled = state.polygon.stipple;
   key.isa = current_isa();
   key.fuse = fuse;
   key.both_planes = program.both_planes;

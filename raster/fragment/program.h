@@ -111,6 +111,8 @@ struct PipelineProgram : ProgramCode {
   bool depth_may_grow = false;  // the depth function can store a larger value
   bool depth_pass_lowers = false;  // every pixel of a full block ends at or before the primitive
   bool draws_nothing = false;
+  // As the state has them. Tiles look here: few programs stay in the cache where many draws' states do not.
+  bool flat_shading = false, stippled = false;
 };
 
 // Which stages the state calls for, drawing on its colour targets. `variant`: bits of Variant.

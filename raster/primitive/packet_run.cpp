@@ -7,7 +7,7 @@ namespace halfspace::raster {
 bool points_wait(const DrawRecord& draw) {
   const VertexLayout& layout = draw.vertices.layout;
   return draw.program->packs && layout.tex_coord < 0 && layout.fog < 0 && !draw.shape.smooth_points &&
-         draw.shape.point_size == 1 && draw.state->accuracy.interpolation != Level::exact;
+         draw.shape.point_size == 1 && draw.program->params.accuracy.interpolation != Level::exact;
 }
 
 bool points_run(const DrawRecord& draw, Primitive mode) {

@@ -4,7 +4,7 @@
 // Whether set-up asks nothing of a draw but its vertices and what SetUpAlike compares.
 HWY_INLINE bool IsPlainToSetUp(const DrawRecord& draw) {
   const VertexLayout& layout = draw.vertices.layout;
-  const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
+  const bool flat = layout.color >= 0 && draw.program->flat_shading;
   const bool has_triangles = draw.image == nullptr && !draw.runs_points && !draw.runs_lines;
   return has_triangles && !flat && layout.low < 0 && !draw.shape.offset_fill && !draw.program->params.one_lambda;
 }
@@ -41,7 +41,7 @@ struct JoinedDraws {
     const size_t all = segment.draws.size();
     bool whole = true;
     for (; whole && at < total && count < kSetupLanes; ++draw_count) {
-      while (draw + 1 < all && starts[draw + 1].first_primitive <= ids[at]) ++draw;
+      draw = DrawOf(segment, ids[at], draw);
       const DrawRecord& record = *starts[draw].draw;
       if (!IsPlainToSetUp(record) || (draw_count != 0 && !SetUpAlike(*draws[0], record))) break;
       const size_t before = at;

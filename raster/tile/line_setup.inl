@@ -253,7 +253,7 @@ void MakeLines(const DrawRecord& draw, const LineRecords& from, int count, LineG
     const bool affine = hn::AllTrue(d, hn::Eq(v.inv_w[0], v.inv_w[1]));
     StoreLinePlanes(planes, affine ? 2 : 1, i, out);
   }
-  if (layout.color >= 0 && draw.state->raster.flat_shading) StoreFlatColors(draw, from, count, out);
+  if (layout.color >= 0 && draw.program->flat_shading) StoreFlatColors(draw, from, count, out);
 }
 
 // What raster/tile/line_setup.h promises.

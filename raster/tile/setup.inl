@@ -411,7 +411,7 @@ HWY_NOINLINE void FinishLanes(const Segment& segment, const DrawRecord& draw, co
                               int32_t center_x, int32_t center_y, const SetupInput& in, SetupBatch& out) {
   const VertexLayout& layout = draw.vertices.layout;
   const FragmentParams& params = draw.program->params;
-  const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
+  const bool flat = layout.color >= 0 && draw.program->flat_shading;
   CutPlanes cut(segment, layout, ids, count);
   cut.Move(in, center_x, center_y, out);
   for (int lane = 0; lane < count; ++lane) {
@@ -483,7 +483,7 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
       CopyCorners(segment, draw.vertices, stride, segment.primitives.data()[ids[lane]], quads, lane, in);
     SetUpCorners(StagedCorners{in}, segment, draw, ids, count, refs.any_cut, center_x, center_y, limit, in, out);
   }
-  const bool flat = layout.color >= 0 && draw.state->raster.flat_shading;
+  const bool flat = layout.color >= 0 && draw.program->flat_shading;
   if (refs.any_cut || flat || draw.shape.offset_fill || draw.program->params.one_lambda)
     FinishLanes(segment, draw, ids, count, center_x, center_y, in, out);
 }

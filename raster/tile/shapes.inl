@@ -101,7 +101,7 @@ void RunShape(TileContext& t, const PrimitiveRef& ref, const Segment& segment, c
       return RunPoint(t, draw, c, lane);
     default:
       return RunSmooth(t, lane, smooth_triangle(c.x, c.y), draw.shape.polygon_coverage, t.limit,
-                       draw.state->polygon.stipple);
+                       draw.program->stippled);
   }
 }
 

@@ -324,13 +324,13 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   const Rect tile{t.x, t.y, t.x + kTileSize, t.y + kTileSize};
   const Rect cut = intersect(tile, draw.bounds);
   t.limit = {cut.x0 - t.x, cut.y0 - t.y, cut.x1 - t.x, cut.y1 - t.y};
-  t.stippled = draw.state->polygon.stipple;
+  t.stippled = draw.program->stippled;
   t.masks_blocks = cut != tile || t.stippled;
   if (t.stippled) SetStipple(t, draw.state->polygon);
   t.program = draw.program;
   t.block.params = &draw.program->params;
   t.plane_count = 2 + draw.vertices.layout.attribute_count;
-  t.flat_color = draw.vertices.layout.color >= 0 && draw.state->raster.flat_shading;
+  t.flat_color = draw.vertices.layout.color >= 0 && draw.program->flat_shading;
   t.projective = draw.vertices.layout.projective;
   t.packs_points = t.notes == nullptr && points_wait(draw);
 }
@@ -353,6 +353,18 @@ void RunTriangles(TileContext& t, int first, int end) {
     lane += run != 0 ? run : 1;
   }
   groups.Draw();
+}
+
+// The draw that primitive `id` is of, from `draw` on.
+HWY_INLINE size_t DrawOf(const Segment& segment, uint32_t id, size_t draw) {
+  const Segment::DrawStart* starts = segment.draws.data();
+  const size_t all = segment.draws.size();
+  // By steps that double and then halve: often it is the next one, and sometimes hundreds on.
+  size_t step = 1;
+  while (draw + step < all && starts[draw + step].first_primitive <= id) draw += step, step *= 2;
+  for (; step != 0; step /= 2)
+    if (draw + step < all && starts[draw + step].first_primitive <= id) draw += step;
+  return draw;
 }
 
 #include "raster/tile/joined_draws.inl"
@@ -415,7 +427,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
   BatchRefs refs[2];  // of the batch at hand, and of the next one
   int now = 0;
   while (at < total) {
-    while (draw + 1 < draw_count && segment.draws.data()[draw + 1].first_primitive <= ids[at]) ++draw;
+    draw = DrawOf(segment, ids[at], draw);
     const uint32_t end = draw + 1 < draw_count ? segment.draws.data()[draw + 1].first_primitive : ~0u;
     const DrawRecord& record = *segment.draws.data()[draw].draw;
     SelectDraw(t, record);
