@@ -65,24 +65,24 @@ void Batch::note_texture(const TextureView& view) {
   texture_bytes_ += view.bytes();
 }
 
-const PipelineProgram& Batch::program_for(const std::shared_ptr<const DrawState>& state,
-                                          const VertexLayout& layout, ColorFormat format, bool fuse) {
+const DrawProgram& Batch::program_for(const std::shared_ptr<const DrawState>& state,
+                                      const VertexLayout& layout, ColorFormat format, bool fuse) {
   const TextureView* view = state->texture.view.get();
   const size_t first = views_.size() < kProgramsLookedAt ? 0 : views_.size() - kProgramsLookedAt;
   for (size_t i = views_.size(); i-- > first;) {
     if (views_[i] != view) continue;
-    const Entry& entry = programs_[i];
+    const DrawProgram& entry = programs_[i];
     const bool same_state = entry.state == state || have_same_program(*entry.state, *state);
-    if (same_state && entry.format == format && same_layout(entry.layout, layout)) return entry.program;
+    if (same_state && entry.format == format && same_layout(entry.layout, layout)) return entry;
   }
-  Entry& entry = programs_.emplace_back();
+  DrawProgram& entry = programs_.emplace_back();
   build_program(*state, layout, format, fuse, codes_, entry.program);
   entry.state = state;
   entry.layout = layout;
   entry.format = format;
   views_.push_back(view);
   if (view != nullptr) note_texture(*view);
-  return entry.program;
+  return entry;
 }
 
 bool Batch::is_covered_by(const ClearCommand& command, const Framebuffer::Impl& target) const {

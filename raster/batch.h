@@ -14,6 +14,22 @@
 
 namespace halfspace::raster {
 
+// A program and what it was made for.
+struct DrawProgram {
+  std::shared_ptr<const DrawState> state;  // of the first draw that took it
+  VertexLayout layout;
+  ColorFormat format{};
+  PipelineProgram program;
+
+  // What a draw with a state of its own goes by once its vertices are shaded. Where the two differ in their
+  // matrices only it is this one: nobody keeps the other, and so one after the other can be made in one
+  // place, which stays in the cache.
+  const std::shared_ptr<const DrawState>& state_after_vertices(
+      const std::shared_ptr<const DrawState>& own) const {
+    return own->rest_version != 0 && own->rest_version == state->rest_version ? state : own;
+  }
+};
+
 // With several threads a device has two: the tiles of one are drawn while the next is filled. What a batch
 // holds is kept for the draws to come.
 class Batch {
@@ -23,8 +39,8 @@ class Batch {
   Segment& open_segment(const Framebuffer::Impl& target);
   const std::vector<Segment*>& segments() const { return pending_; }
   // What draws of this state and layout go through; draws that differ in their vertices only share it.
-  const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state,
-                                     const VertexLayout& layout, ColorFormat format, bool fuse);
+  const DrawProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout,
+                                 ColorFormat format, bool fuse);
   // Notes what a draw put into this batch may change.
   void add_targets(uint8_t color_targets, bool stencil) {
     targets_ |= color_targets;
@@ -60,14 +76,7 @@ class Batch {
   std::vector<uint64_t> marks_;  // of tiles, while they are dealt
   uint8_t targets_ = 0;          // colour planes drawn to
   bool stencil_ = false;         // whether the stencil plane may be written
-  // A program and what it was made for.
-  struct Entry {
-    std::shared_ptr<const DrawState> state;
-    VertexLayout layout;
-    ColorFormat format{};
-    PipelineProgram program;
-  };
-  Recycled<Entry> programs_;
+  Recycled<DrawProgram> programs_;
   std::vector<const TextureView*> views_;  // of the programs, in their order: most look-ups end here
   CodeCache codes_;
   // Textures that draws hold on to, by level 0; the program that replaced or deleted one cannot free it.

@@ -110,8 +110,7 @@ struct Device::Impl {
   std::vector<uint8_t> clip_codes;
   uint32_t stipple = 0;  // where the stipple of the last line strip stands
 
-  const PipelineProgram& program_for(const std::shared_ptr<const DrawState>& state,
-                                     const VertexLayout& layout) {
+  const DrawProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout) {
     return filling->program_for(state, layout, target->format, fuse);
   }
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
@@ -133,15 +132,15 @@ struct Device::Impl {
   void count_vertices(const DrawState& state, uint32_t count, Clock::duration time);
   void report_stages(const LinearImage* image);
   void report_draw(const DeviceStatistics& before);
-  void find_clip_distances(const VertexBatch& batch, DrawRecord& record);
+  void find_clip_distances(const DrawPacket& packet, DrawRecord& record);
   bool assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives);
   void need_planes(const DrawState& state, const PipelineProgram& program);
   void note_targets(const DrawState& state, const PipelineProgram& program);
   void draw(const DrawPacket& packet);
   void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
-                     const PipelineProgram& program);
+                     const DrawProgram& program);
   void draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
-                 const PipelineProgram& program);
+                 const DrawProgram& program);
   void execute_if_full();
   void draw_pixels(const PixelPacket& packet);
   bool prepare_pixels(const PixelPacket& packet, const PipelineProgram& program);
@@ -204,11 +203,12 @@ void Device::Impl::report_draw(const DeviceStatistics& before) {
   print_statistics(before, statistics, 0);
 }
 
-void Device::Impl::find_clip_distances(const VertexBatch& batch, DrawRecord& record) {
-  if (record.state->clip_planes.enabled == 0) return;
+void Device::Impl::find_clip_distances(const DrawPacket& packet, DrawRecord& record) {
+  if (packet.state->clip_planes.enabled == 0) return;
+  const VertexBatch& batch = packet.batch;
   clip_distances.resize(size_t{batch.count} * kMaxClipPlanes);
   clip_codes.resize(batch.count);
-  raster::clip_distances(*record.state, batch, clip_distances.data(), clip_codes.data());
+  raster::clip_distances(*packet.state, batch, clip_distances.data(), clip_codes.data());
   record.clip_distances = clip_distances.data();
   record.clip_codes = clip_codes.data();
 }
@@ -259,13 +259,14 @@ void Device::Impl::draw(const DrawPacket& packet) {
   VertexLayout layout = choose_layout(state, packet.batch);
   const ShapePlan shape = plan_shapes(state, packet.primitive);
   layout.coverage = shape.coverage;
-  const PipelineProgram& program = program_for(packet.state, layout);
+  const DrawProgram& found = program_for(packet.state, layout);
+  const PipelineProgram& program = found.program;
   ++statistics.draws;
   statistics.vertices += packet.batch.count;
   const Rect reach = shape.general ? draw_window(state, *target) : draw_bounds(state, *target);
   if (program.draws_nothing || reach.empty()) return;
   need_planes(state, program);
-  draw_in_parts(packet, layout, shape, program);
+  draw_in_parts(packet, layout, shape, found);
 }
 
 uint32_t Device::Impl::part_scale(const DrawPacket& packet) const {
@@ -276,7 +277,7 @@ uint32_t Device::Impl::part_scale(const DrawPacket& packet) const {
 // Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending
 // stays small.
 void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
-                                 const PipelineProgram& program) {
+                                 const DrawProgram& program) {
   const uint32_t each = separate_vertices(packet.primitive);
   const uint32_t step = each * kPartPrimitives * part_scale(packet);
   if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program);
@@ -299,9 +300,10 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
 }
 
 void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
-                             const PipelineProgram& program) {
+                             const DrawProgram& found) {
+  const PipelineProgram& program = found.program;
   DrawRecord& record = filling->draws.emplace_back();
-  record.state = packet.state;
+  record.state = found.state_after_vertices(packet.state);
   record.bounds = draw_bounds(*packet.state, *target);
   record.window = draw_window(*packet.state, *target);
   record.program = &program;
@@ -314,10 +316,10 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.runs_points = points_run(record, packet.primitive) && !notes;
   record.runs_lines = lines_run(record, packet.primitive, primitives) && !notes;
   if (points_run_unshaded(record, packet) && !meters)
-    record.given_points = &packet.batch;
+    record.given_points = &packet.batch, record.state = packet.state;
   else
     shade(packet, record.vertices);
-  find_clip_distances(packet.batch, record);
+  find_clip_distances(packet, record);
   const bool refers = assemble_draw(record, packet, primitives);
   // Packets bring along all that is needed.
   if ((record.runs_points && record.given_points == nullptr) || (record.runs_lines && !refers))
@@ -353,7 +355,7 @@ bool Device::Impl::prepare_pixels(const PixelPacket& packet, const PipelineProgr
 void Device::Impl::draw_pixels(const PixelPacket& packet) {
   if (target == nullptr) return;
   const VertexLayout layout = pixel_layout(packet);
-  const PipelineProgram& program = program_for(packet.state, layout);
+  const PipelineProgram& program = program_for(packet.state, layout).program;
   if (!prepare_pixels(packet, program)) return;
   const Rect limit = draw_window(*packet.state, *target);
   const bool keep = is_small(packet);

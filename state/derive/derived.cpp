@@ -234,7 +234,10 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   for (int group = 0; group < kDirtyGroups; ++group)
     if (derived.dirty >> group & 1) derived.versions[size_t(group)] = ++derived.last_version;
   if ((derived.dirty & ~uint32_t{kDirtyTransform | kDirtyTexture}) != 0) derived.rest_version = derived.last_version;
-  const auto next = derived.states.take();
+  // One that nothing refers to but this: no draw that was made of it needs its matrices any more.
+  const bool in_place = derived.state.use_count() == 1;
+  const std::shared_ptr<VersionedState> other = in_place ? nullptr : derived.states.take();
+  VersionedState* const next = in_place ? derived.latest : other.get();
   const auto bring_up_to_date = [&](uint32_t bit, auto&&... derive_groups) {
     const auto group = size_t(std::countr_zero(bit));
     if (next->versions[group] == derived.versions[group]) return;
@@ -252,7 +255,7 @@ const std::shared_ptr<const DrawState>& derive(Context& context) {
   next->rest_version = derived.rest_version;
   derived.texture_revision = revision;
   derived.dirty = 0;
-  derived.state = next;
+  if (!in_place) derived.state = other, derived.latest = next;
   return derived.state;
 }
 

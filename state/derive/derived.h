@@ -44,6 +44,7 @@ struct DerivedState {
   uint64_t rest_version = 0;  // of all groups but transform and texture
   Reused<VersionedState> states;
   std::shared_ptr<const raster::DrawState> state;
+  VersionedState* latest = nullptr;  // `state`, unless that is null
 };
 
 // `bits`: DirtyBits.

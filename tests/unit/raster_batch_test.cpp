@@ -21,7 +21,7 @@ class BatchTest : public testing::Test {
  protected:
   const PipelineProgram* program(const DrawState& state, const VertexLayout& layout = {},
                                  ColorFormat format = ColorFormat::rgba8) {
-    return &batch.program_for(std::make_shared<const DrawState>(state), layout, format, true);
+    return &batch.program_for(std::make_shared<const DrawState>(state), layout, format, true).program;
   }
   static std::shared_ptr<const TextureView> one_texel(uint8_t level) {
     Texture texture;
@@ -85,6 +85,23 @@ TEST_F(BatchTest, WhatTheVertexStageHasDoneWithMakesNone) {
   state.viewport.width = 40;
   state.raster.cull_back = true;
   EXPECT_EQ(program(state), first);
+}
+
+TEST_F(BatchTest, StatesThatDifferInTheirMatricesAreNotKept) {
+  const auto made = [](uint64_t rest_version, double scale) {
+    auto state = std::make_shared<DrawState>();
+    state->rest_version = rest_version;
+    state->clip_from_object[0] = scale;
+    return std::shared_ptr<const DrawState>(std::move(state));
+  };
+  const auto first = made(3, 1), second = made(3, 2), another = made(4, 1), unknown = made(0, 1);
+  const DrawProgram& found = batch.program_for(first, {}, ColorFormat::rgba8, true);
+  for (const auto& state : {first, second, another, unknown})
+    ASSERT_EQ(&batch.program_for(state, {}, ColorFormat::rgba8, true), &found);
+  EXPECT_EQ(found.state_after_vertices(first), first);
+  EXPECT_EQ(found.state_after_vertices(second), first);
+  EXPECT_EQ(found.state_after_vertices(another), another) << "it may have another viewport";
+  EXPECT_EQ(found.state_after_vertices(unknown), unknown);
 }
 
 TEST_F(BatchTest, LayoutAndFormatCountToo) {

@@ -139,6 +139,18 @@ TEST_F(DeriveTest, MatricesAndTexturesLeaveTheRestsVersion) {
   EXPECT_NE(derive(*context)->rest_version, version);
 }
 
+TEST_F(DeriveTest, AStateThatSomebodyHoldsStays) {
+  const raster::DrawState* const alone = derive(*context).get();
+  op::load_matrix(*context, kMatrix);
+  EXPECT_EQ(derive(*context).get(), alone) << "nobody held it";
+  const auto held = derive(*context);
+  const auto matrix = held->eye_from_object;
+  op::load_identity(*context);
+  EXPECT_NE(derive(*context), held);
+  EXPECT_EQ(held->eye_from_object, matrix);
+  EXPECT_NE(derive(*context)->eye_from_object, matrix);
+}
+
 TEST_F(DeriveTest, ASharingContextSeesNewTexels) {
   op::enable(*context, GL_TEXTURE_2D);
   op::tex_parameteriv(*context, GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, kNearest);
