@@ -34,6 +34,13 @@ class Arena {
     total_ -= bytes;
   }
   size_t bytes_in_use() const { return total_; }
+  // visit(begin, bytes) for the memory that was handed out, and for what was left over at the ends of
+  // buffers.
+  template <class Visit>
+  void for_each_used(Visit visit) const {
+    for (size_t i = 0; i < buffers_.size() && i <= at_; ++i)
+      visit(buffers_[i].as<std::byte>(), i < at_ ? buffers_[i].bytes() : used_);
+  }
   void reset() {
     // Buffers of unusual size are not kept.
     std::erase_if(buffers_, [](const PageBuffer& b) { return b.bytes() > kLargestKept; });

@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "raster/cache_distance.h"
 #include "raster/surface/clear.h"
 #include "raster/tile/tile_worker.h"
 
@@ -146,6 +147,21 @@ void Batch::count_into(DeviceStatistics& statistics) const {
     statistics.triangles += segment->triangles_in;
     statistics.culled += segment->culled;
     statistics.clipped += segment->clipped;
+  }
+}
+
+void Batch::leave_caches() const {
+  const auto leave = [](const auto& list) {
+    raster::leave_caches(list.data(), list.size() * sizeof *list.data());
+  };
+  arena.for_each_used(raster::leave_caches);
+  for (const Segment* segment : pending_) {
+    leave(segment->primitives);
+    leave(segment->cut_triangles);
+    leave(segment->plane_sources);
+    for (const uint32_t tile : segment->touched) leave(segment->bins[tile]);
+    leave(segment->packets.runs);
+    segment->packets.memory().for_each_used(raster::leave_caches);
   }
 }
 

@@ -58,6 +58,8 @@ class Batch {
   // The tile of task i + 1, if the same worker is dealt that, else kNoTile.
   uint32_t tile_after(uint32_t i) const;
   void count_into(DeviceStatistics& statistics) const;
+  // For who fills it anew, when other threads have read it (CacheDistance).
+  void leave_caches() const;
   void discard();
 
   Recycled<DrawRecord> draws;

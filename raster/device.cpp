@@ -380,6 +380,7 @@ void Device::Impl::draw_pixels(const PixelPacket& packet) {
 
 void Device::Impl::discard(Batch& batch) {
   batch.count_into(statistics);
+  if (pool.is_far()) batch.leave_caches();
   batch.discard();
 }
 

@@ -147,6 +147,7 @@ void ThreadPool::serve(int worker) {
     }
     if (stop_.load()) return;
     seen = loops_.load();
+    distance_.read();
     // What the caller waits for comes first, also when it begins in the middle of the other.
     do {
       front_.help(worker);
@@ -199,6 +200,7 @@ void ThreadPool::wait() {
   if (trace_) trace_->begin_wait();
   back_.help(0);
   back_.close();
+  distance_.measure();
   if (trace_) trace_->end_wait();
 }
 

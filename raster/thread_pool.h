@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "raster/cache_distance.h"
 #include "raster/task_trace.h"
 
 namespace halfspace::raster {
@@ -72,6 +73,8 @@ class ThreadPool {
   void start(std::span<const uint32_t> ends, Task task);
   // Helps with what start() began, and returns when it is done. Throws the first exception of a task.
   void wait();
+  // Whether what the other threads have read is slow to write for the caller.
+  bool is_far() const { return distance_.is_far(); }
   // Notes in the trace, if there is one, that a picture is finished.
   void note_picture();
   // Whether tasks of that loop still wait for somebody.
@@ -86,6 +89,7 @@ class ThreadPool {
   std::vector<std::thread> threads_;
   TaskLoop front_, back_;  // of run() and of start()
   std::unique_ptr<TaskTrace> trace_;
+  CacheDistance distance_;  // from the caller to the others
   Task back_task_;
   bool busy_ = false;
   std::vector<uint32_t> even_ends_;

@@ -29,6 +29,7 @@ class PacketBins {
   // Ends the runs of the draw, and gives how many bytes are in them.
   size_t finish_draw();
   void clear();
+  const Arena& memory() const { return memory_; }
 
   std::vector<PacketRun> runs;
 
