@@ -64,41 +64,16 @@ class Assembler {
   void faces(uint32_t first, uint32_t count) {
     segment_.triangles_in += count;
     const TriangleFilterFunction run_filter = triangle_filter();
-    // Groups wait from the first on that has triangles to be cut, so that these come together.
-    constexpr uint32_t kGroups = CutFaces::kMost / kFilterLanes;
-    uint32_t made[kGroups][3 * kFilterLanes];
-    const uint32_t* corners[kGroups];
-    FilteredTriangles found[kGroups];
-    std::optional<CutFaces> cut;  // once there are some
-    uint32_t waiting = 0;
-    const auto take_waiting = [&] {
-      cut->cut();
-      for (uint32_t i = 0; i < waiting; ++i) take_filtered(found[i], corners[i], Pattern::kProvoking, &*cut);
-      waiting = 0;
-    };
-    while (count > 0) {
+    uint32_t made[3 * kFilterLanes];
+    FilteredTriangles found;
+    for (; count > 0; first += kFilterLanes) {
       const uint32_t group = std::min(count, kFilterLanes);
-      corners[waiting] = made[waiting];
-      if (std::is_same_v<Pattern, ListTriangles> && indices_ != nullptr) {
-        corners[waiting] = indices_ + 3 * first;
-      } else {
-        for (uint32_t i = 0; i < group; ++i) {
-          const Corners at = Pattern::at(first + i);
-          for (uint32_t k = 0; k < 3; ++k) made[waiting][3 * i + k] = vertex(at.v[k]);
-        }
-      }
-      run_filter(filter_, corners[waiting], group, found[waiting]);
-      first += group;
+      const uint32_t* corners = corners_of<Pattern>(first, group, made);
+      run_filter(filter_, corners, group, found);
+      if (found.special != 0) return cut_faces<Pattern>(first, count);
+      take_filtered(found, corners, Pattern::kProvoking, nullptr);
       count -= group;
-      if ((waiting | found[waiting].special) == 0) {
-        take_filtered(found[0], corners[0], Pattern::kProvoking, nullptr);
-        continue;
-      }
-      if (!cut) cut.emplace(draw_, clipper(), facing_, segment_);
-      add_cut(found[waiting].special, corners[waiting], Pattern::kProvoking, *cut);
-      if (++waiting == kGroups) take_waiting();
     }
-    if (waiting != 0) take_waiting();
   }
 
   void lines(Primitive mode, uint32_t first, uint32_t count) {
@@ -121,6 +96,48 @@ class Assembler {
   }
 
  private:
+  // Of a group of triangles; `made`: where they go that are not in memory as they are.
+  template <class Pattern>
+  const uint32_t* corners_of(uint32_t first, uint32_t group, uint32_t* made) const {
+    if (std::is_same_v<Pattern, ListTriangles> && indices_ != nullptr) return indices_ + 3 * first;
+    for (uint32_t i = 0; i < group; ++i) {
+      const Corners at = Pattern::at(first + i);
+      for (uint32_t k = 0; k < 3; ++k) made[3 * i + k] = vertex(at.v[k]);
+    }
+    return made;
+  }
+
+  // From the first group on that has triangles to be cut. Groups wait from each such on, so that these come
+  // together. Apart from faces(), since small draws should not have to clear its memory.
+  template <class Pattern>
+  [[gnu::noinline]] void cut_faces(uint32_t first, uint32_t count) {
+    const TriangleFilterFunction run_filter = triangle_filter();
+    constexpr uint32_t kGroups = CutFaces::kMost / kFilterLanes;
+    uint32_t made[kGroups][3 * kFilterLanes];
+    const uint32_t* corners[kGroups];
+    FilteredTriangles found[kGroups];
+    CutFaces cut(draw_, clipper(), facing_, segment_);
+    uint32_t waiting = 0;
+    const auto take_waiting = [&] {
+      cut.cut();
+      for (uint32_t i = 0; i < waiting; ++i) take_filtered(found[i], corners[i], Pattern::kProvoking, &cut);
+      waiting = 0;
+    };
+    for (; count > 0; first += kFilterLanes) {
+      const uint32_t group = std::min(count, kFilterLanes);
+      corners[waiting] = corners_of<Pattern>(first, group, made[waiting]);
+      run_filter(filter_, corners[waiting], group, found[waiting]);
+      count -= group;
+      if ((waiting | found[waiting].special) == 0) {
+        take_filtered(found[0], corners[0], Pattern::kProvoking, nullptr);
+        continue;
+      }
+      add_cut(found[waiting].special, corners[waiting], Pattern::kProvoking, cut);
+      if (++waiting == kGroups) take_waiting();
+    }
+    if (waiting != 0) take_waiting();
+  }
+
   uint32_t vertex(uint32_t place) const { return indices_ ? indices_[place] : place; }
   const VertexHead& head(uint32_t i) const {
     return *reinterpret_cast<const VertexHead*>(records_ + size_t{i} * stride_);
