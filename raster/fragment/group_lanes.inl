@@ -75,8 +75,8 @@ struct GroupPlaneDouble {
   }
 
  private:
-  // Where in the tables is one instruction each, which closes up bits of a group. For what lies between them, the
-  // columns of a block, the rows of a pair and the tile's width beside a lane's values, a bit goes along that is 0.
+  // Where in the tables is one instruction each, which closes up bits of a group. Bits that are 0 go along for the
+  // columns of a block, for the rows of a pair, and since a lane has twice as many values as the tile is wide.
   static constexpr unsigned kLaneBits = 7u << TileGroup::kLaneShift | 1u << (TileGroup::kLaneShift - 1);
   static constexpr unsigned kColumnBits = 7 << 5 | 7, kRowBits = 7 << 8 | 7 << 2;
   static_assert(kBlockSize == 8 && kTileSize == 64 && kLanes == 16 && TileGroup::kIndexShift == 3);
@@ -94,7 +94,8 @@ struct GroupPlaneDouble {
 struct GroupLevelPlane {
   const BlockContext& c;
   const float (*f0)[kSetupLanes];
-  HWY_INLINE GroupLevelPlane(const BlockContext& context, int plane, const GroupPlaneTable& at) : c(context), f0(at.f0) {}
+  HWY_INLINE GroupLevelPlane(const BlockContext& context, int, const GroupPlaneTable& at)
+      : c(context), f0(at.f0) {}
   HWY_INLINE VF At(int) const { return hn::Set(DF(), (*f0)[c.group.lane()]); }
 };
 

@@ -13,16 +13,19 @@ inline constexpr int kSpanWidth = GroupDepths::kColumns, kSpanRows = GroupDepths
 inline constexpr int32_t kSpanStep = 1 << 14;
 inline constexpr float kSpanSlack = 0x1p-15f;
 
-// What is the same for all windows of a triangle, of eight triangles at once.
+// What windows of a triangle are found from, of eight triangles at once. As made, that is of each one's first
+// window: nothing needs to be worked out for it, and most have but one or two. NextRows and NextColumns go on to
+// the others.
 struct SpanBatch {
-  alignas(32) float base[3][kSetupLanes];  // the edge's value at the first window's first pixel
+  alignas(32) float base[3][kSetupLanes];  // the edge's value at the window's first pixel
   alignas(32) float run[3][kSetupLanes], rise[3][kSetupLanes];  // what it gains by a column and by a row
   alignas(32) float turn[3][kSetupLanes];                       // columns for each unit of it
   // What makes columns out of where it is crossed: the first inside, or the last; the other one is no bound.
   alignas(32) float enter[3][kSetupLanes], leave[3][kSetupLanes];
   alignas(32) int32_t left[kSetupLanes], bottom[kSetupLanes];  // the first window's first pixel
-  // Of the box, from there: its first column, its last, its last row.
-  alignas(32) int32_t first[kSetupLanes], width[kSetupLanes], height[kSetupLanes];
+  alignas(32) int32_t width[kSetupLanes], height[kSetupLanes];  // the box's last column and row, from there
+  alignas(32) float first[kSetupLanes], last[kSetupLanes];      // the window's columns that lie in the box
+  alignas(64) double dx[kSetupLanes], dy[kSetupLanes];          // the window's first pixel, from the anchor
   alignas(32) int32_t place[kSetupLanes],
       phase[kSetupLanes];                    // of the first group, and its pair of rows in the block
   alignas(64) uint64_t rows[kSetupLanes];    // bits of the box's rows, from the first window's
@@ -59,7 +62,10 @@ struct SpanBatch {
     const __m256i wide = _mm256_sub_epi32(max_x, x), high = _mm256_sub_epi32(max_y, y);
     store(x, left);
     store(y, bottom);
-    store(_mm256_sub_epi32(min_x, x), first);
+    _mm256_store_ps(first, _mm256_cvtepi32_ps(_mm256_sub_epi32(min_x, x)));
+    _mm256_store_ps(last, _mm256_cvtepi32_ps(_mm256_min_epi32(wide, all(kSpanWidth - 1))));
+    _mm512_store_pd(dx, _mm512_add_pd(_mm512_load_pd(s.anchor_x), _mm512_cvtepi32_pd(x)));
+    _mm512_store_pd(dy, _mm512_add_pd(_mm512_load_pd(s.anchor_y), _mm512_cvtepi32_pd(y)));
     store(wide, width);
     store(high, height);
     const __m256i column = _mm256_srli_epi32(x, 3), row = _mm256_srli_epi32(y, 3);
@@ -76,6 +82,19 @@ struct SpanBatch {
     _mm512_store_si512(blocks, _mm512_and_si512(columns, Range(_mm256_slli_epi32(row, 3), top)));
     const __m256i least = _mm256_min_epi32(_mm256_sub_epi32(max_x, min_x), _mm256_sub_epi32(max_y, min_y));
     fits = lanes & _mm256_cmple_epi32_mask(longest, all(kSpanStep)) & _mm256_cmpge_epi32_mask(least, all(0));
+  }
+
+  HWY_INLINE void NextRows(int lane) {
+    for (int k = 0; k < 3; ++k) base[k][lane] += rise[k][lane] * kSpanRows;
+    dy[lane] += kSpanRows;
+  }
+  // From the `down`-th window of the last columns to the first of those from the `x`-th on.
+  HWY_INLINE void NextColumns(int lane, int x, int down) {
+    const auto rows_back = static_cast<float>(kSpanRows * down);
+    for (int k = 0; k < 3; ++k) base[k][lane] += run[k][lane] * kSpanWidth - rise[k][lane] * rows_back;
+    dx[lane] += kSpanWidth;
+    first[lane] = 0;
+    last[lane] = static_cast<float>(width[lane] - x < kSpanWidth - 1 ? width[lane] - x : kSpanWidth - 1);
   }
 
  private:
@@ -102,17 +121,14 @@ inline constexpr SpanPlaces kSpanPlaces = [] {
   return places;
 }();
 
-// Adds what the triangle covers of the window that lies (x, y) from its first one; gives how many pixels in
-// each row.
+// Adds what the triangle covers of the window at hand, which lies (x, y) from its first one; gives how many
+// pixels in each row.
 HWY_INLINE __m512i AddWindow(const SpanBatch& b, int lane, int x, int y, GroupList& list) {
   const __m512 row = _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const int first = b.first[lane] - x, last = b.width[lane] - x;
-  __m512 from = _mm512_set1_ps(static_cast<float>(first > 0 ? first : 0));
-  __m512 to = _mm512_set1_ps(static_cast<float>(last < kSpanWidth - 1 ? last : kSpanWidth - 1));
+  __m512 from = _mm512_set1_ps(b.first[lane]), to = _mm512_set1_ps(b.last[lane]);
   for (int k = 0; k < 3; ++k) {
-    const float base =
-        b.base[k][lane] + (static_cast<float>(x) * b.run[k][lane] + static_cast<float>(y) * b.rise[k][lane]);
-    const __m512 e = _mm512_add_ps(_mm512_mul_ps(row, _mm512_set1_ps(b.rise[k][lane])), _mm512_set1_ps(base));
+    const __m512 rises = _mm512_mul_ps(row, _mm512_set1_ps(b.rise[k][lane]));
+    const __m512 e = _mm512_add_ps(rises, _mm512_set1_ps(b.base[k][lane]));
     const __m512 at = _mm512_mul_ps(e, _mm512_set1_ps(b.turn[k][lane]));
     from = _mm512_max_ps(from, _mm512_add_ps(at, _mm512_set1_ps(b.enter[k][lane])));
     to = _mm512_min_ps(to, _mm512_add_ps(at, _mm512_set1_ps(b.leave[k][lane])));
@@ -129,8 +145,9 @@ HWY_INLINE __m512i AddWindow(const SpanBatch& b, int lane, int x, int y, GroupLi
   // Of two rows, the blocks' bytes side by side: sixteen pixels each.
   const __m128i turn = _mm_setr_epi8(0, 4, 1, 5, 2, 6, 3, 7, 8, 12, 9, 13, 10, 14, 11, 15);
   const __m512i groups = _mm512_shuffle_epi8(bits, _mm512_broadcast_i32x4(turn));
-  const __m512i places = _mm512_add_epi32(_mm512_load_si512(kSpanPlaces.of[b.phase[lane]]),
-                                          _mm512_set1_epi32(b.place[lane] + ((x / 2 + y * 4) << TileGroup::kIndexShift)));
+  const int first = b.place[lane] + ((x / 2 + y * 4) << TileGroup::kIndexShift);
+  const __m512i places =
+      _mm512_add_epi32(_mm512_load_si512(kSpanPlaces.of[b.phase[lane]]), _mm512_set1_epi32(first));
   list.AddSome(_mm512_slli_epi32(groups, TileGroup::kLiveShift), places);
   list.AddSome(_mm512_and_si512(groups, _mm512_set1_epi32(-1 << TileGroup::kLiveShift)),
                _mm512_add_epi32(places, _mm512_set1_epi32(4 << TileGroup::kIndexShift)));
@@ -161,16 +178,14 @@ class GroupBatch {
     stages_ = &stages;
     lanes_ |= 1u << lane;
     blocks_ |= spans_.blocks[lane];
-    const int left = spans_.left[lane], bottom = spans_.bottom[lane];
     const bool depth = stages.groups_depth != nullptr;
-    for (int x = 0; depth && x <= spans_.width[lane]; x += kSpanWidth)
-      FillColumnDepths(t_.setup, lane, left + x, t_.group_depths);
-    for (int y = 0; y <= spans_.height[lane]; y += kSpanRows) {
-      if (depth) FillRowDepths(t_.setup, lane, bottom + y, t_.group_depths);
-      for (int x = 0; x <= spans_.width[lane]; x += kSpanWidth)
-        length_ = _mm512_add_epi32(length_, AddWindow(spans_, lane, x, y, list_));
+    for (int x = 0;;) {
+      if (depth) FillColumnDepths(t_.setup, lane, spans_.left[lane] + x, spans_.dx[lane], t_.group_depths);
+      const int down = AddColumns(lane, x, depth && x == 0);
+      x += kSpanWidth;
+      if (x > spans_.width[lane]) return true;
+      spans_.NextColumns(lane, x, down);
     }
-    return true;
   }
 
   HWY_INLINE void Draw() {
@@ -180,6 +195,18 @@ class GroupBatch {
   }
 
  private:
+  // The windows from the first row on; gives which one, counted from 0, is the last. `depth`: that of these rows
+  // is not there yet.
+  HWY_INLINE int AddColumns(int lane, int x, bool depth) {
+    for (int y = 0;;) {
+      if (depth) FillRowDepths(t_.setup, lane, spans_.bottom[lane] + y, spans_.dy[lane], t_.group_depths);
+      length_ = _mm512_add_epi32(length_, AddWindow(spans_, lane, x, y, list_));
+      y += kSpanRows;
+      if (y > spans_.height[lane]) return y / kSpanRows - 1;
+      spans_.NextRows(lane);
+    }
+  }
+
   HWY_NOINLINE void DrawSome() {
     list_.fragments = static_cast<uint64_t>(_mm512_reduce_add_epi32(length_));
     RunGroups(t_, lanes_, list_, blocks_, *stages_);

@@ -116,20 +116,21 @@ struct GroupList {
 };
 
 #if HWY_TARGET == HWY_AVX3
-// What groups of the primitive take their depth from: of a window's columns from x of the tile on, x at a block, and of its
-// rows from y on.
-HWY_INLINE void FillColumnDepths(const SetupBatch& s, int lane, int x, GroupDepths& out) {
-  const __m512d steps = _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7);
-  for (int k = 0; k < GroupDepths::kColumns; k += 8) {
-    const __m512d dx = _mm512_add_pd(steps, _mm512_set1_pd(s.anchor_x[lane] + (x + k)));
-    _mm512_store_pd(out.across[lane] + x + k, _mm512_mul_pd(dx, _mm512_set1_pd(s.dfdx[0][lane])));
-  }
+HWY_INLINE __m512d EightFrom(double k) {
+  return _mm512_setr_pd(k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7);
 }
-HWY_INLINE void FillRowDepths(const SetupBatch& s, int lane, int y, GroupDepths& out) {
-  const __m512d steps = _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7);
+
+// What groups of the primitive take their depth from: of a window's columns from x of the tile on, x at a block,
+// and of its rows from y on. dx, dy: where that is from the anchor; sums of these are exact.
+HWY_INLINE void FillColumnDepths(const SetupBatch& s, int lane, int x, double dx, GroupDepths& out) {
+  const __m512d first = _mm512_set1_pd(dx), slope = _mm512_set1_pd(s.dfdx[0][lane]);
+  for (int k = 0; k < GroupDepths::kColumns; k += 8)
+    _mm512_store_pd(out.across[lane] + x + k, _mm512_mul_pd(_mm512_add_pd(EightFrom(k), first), slope));
+}
+HWY_INLINE void FillRowDepths(const SetupBatch& s, int lane, int y, double dy, GroupDepths& out) {
+  const __m512d first = _mm512_set1_pd(dy);
   for (int k = 0; k < GroupDepths::kRows; k += 8) {
-    const __m512d dy = _mm512_add_pd(steps, _mm512_set1_pd(s.anchor_y[lane] + (y + k)));
-    const __m512d up = _mm512_mul_pd(dy, _mm512_set1_pd(s.dfdy[0][lane]));
+    const __m512d up = _mm512_mul_pd(_mm512_add_pd(EightFrom(k), first), _mm512_set1_pd(s.dfdy[0][lane]));
     _mm512_storeu_pd(out.row[lane] + y + k, _mm512_add_pd(up, _mm512_set1_pd(s.f0[0][lane])));
   }
 }
@@ -284,8 +285,10 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
   }
   if (touched == 0) return;
 #if HWY_TARGET == HWY_AVX3
-  for (int x = 0; x < kTileSize; x += GroupDepths::kColumns) FillColumnDepths(s, lane, x, t.group_depths);
-  for (int y = 0; y < kTileSize; y += GroupDepths::kRows) FillRowDepths(s, lane, y, t.group_depths);
+  for (int x = 0; x < kTileSize; x += GroupDepths::kColumns)
+    FillColumnDepths(s, lane, x, s.anchor_x[lane] + x, t.group_depths);
+  for (int y = 0; y < kTileSize; y += GroupDepths::kRows)
+    FillRowDepths(s, lane, y, s.anchor_y[lane] + y, t.group_depths);
 #endif
   GroupList list(t.groups, lane);
   if (!t.masks_blocks) {

@@ -89,10 +89,11 @@ class TexturedStates {
   TestTexture color_{BaseFormat::rgb}, transparent_{BaseFormat::rgba};
 };
 
-// One triangle, or a quad as two: far larger than a tile, or small. Level in depth, colour or alpha now and
+// One triangle, or a quad as two: far larger than a tile, about as large, or small. Level in depth, colour or alpha now and
 // then.
 std::vector<Vertex> any_triangles(Random& random, Primitive& primitive) {
-  const int64_t reach = random.integer(0, 2) == 0 ? 12 * 256 : 700 * 256;
+  constexpr std::array<int64_t, 4> kReaches{12, 30, 700, 700};
+  const int64_t reach = kReaches[static_cast<size_t>(random.integer(0, 3))] * 256;
   const bool level = random.integer(0, 1) == 0, even = random.integer(0, 4) == 0,
              level_alpha = random.integer(0, 2) != 0;
   const bool perspective = random.integer(0, 5) == 0;
