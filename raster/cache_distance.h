@@ -14,6 +14,8 @@ namespace halfspace::raster {
 // the other, instead of two.
 class CacheDistance {
  public:
+  // Whether the processor can have memory leave the caches. If not, no distance is measured.
+  static bool can_leave();
   // By another thread than the writer.
   void read();
   // By the writer: takes the time to write what has been read meanwhile, if anything was.
@@ -27,11 +29,12 @@ class CacheDistance {
   };
   std::array<Line, 32> lines_;
   alignas(64) std::atomic<bool> was_read_{false};
+  const bool measures_ = can_leave();
   bool far_ = false;
 };
 
-// Has memory leave all caches, the other threads' too, so that it costs nobody more than a miss. Nothing
-// where the processor has no instruction for it.
+// Has memory leave all caches, the other threads' too, so that writing it costs nobody more than a miss. For
+// processors that can.
 void leave_caches(const void* from, size_t bytes);
 
 }  // namespace halfspace::raster
