@@ -20,10 +20,9 @@ constexpr size_t kMaxPacketBytes = size_t{3} << 17;  // of points and lines, whi
 // other tiles, as a mesh's do row by row: the batch ends when it has half as many tiles again as at the limits.
 constexpr uint32_t kScatteredScale = 8;
 constexpr size_t kDensePrimitives = 256;
-// A draw brings some three kilobytes, of its state for the most part: more draws than these are not in the
-// cache any more when their tiles are drawn. Measured best of 32 to 1024, with one thread and with two; 1.3
-// times as fast as thousands.
-constexpr size_t kMaxDraws = 256;
+// A small draw brings some six hundred bytes: more draws than these are not in the cache any more when their
+// tiles are drawn. Measured best of 128 to 1024; with three kilobytes, before they shared states, 256 were.
+constexpr size_t kMaxDraws = 512;
 constexpr size_t kProgramsLookedAt = 32;  // the last ones; to make one is as fast as to look at some more
 constexpr size_t kMaxTextureBytes = size_t{128} << 20;  // of several textures; a single one may be larger
 

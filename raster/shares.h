@@ -17,9 +17,10 @@ struct Shares {
 // At most `wanted` shares of `total`, of whole multiples of `multiple`.
 inline Shares even_shares(uint32_t total, uint32_t wanted, uint32_t multiple = 1) {
   if (total == 0) return {};
-  const uint32_t smallest = (total - 1) / wanted + 1;
+  // Small draws ask for one, and to divide shows there.
+  const uint32_t smallest = wanted == 1 ? total : (total - 1) / wanted + 1;
   const uint32_t each = ((smallest - 1) / multiple + 1) * multiple;
-  return {(total - 1) / each + 1, each, total};
+  return {each >= total ? 1 : (total - 1) / each + 1, each, total};
 }
 
 }  // namespace halfspace::raster

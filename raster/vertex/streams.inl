@@ -77,7 +77,8 @@ struct QuadReader {
       return hn::IfThenElse(given, hn::LoadU(Quads(), reinterpret_cast<const float*>(p)), missing);
     return load_given(p);
   }
-  HWY_INLINE QuadVec get_or_missing(uint32_t i, uint32_t count) const { return i < count ? get(i) : missing; }
+  // What lies beyond is as the first is: nothing is decided then by what nobody draws.
+  HWY_INLINE QuadVec get_or_first(uint32_t i, uint32_t count) const { return get(i < count ? i : 0); }
 
  private:
   // Not written in parts to be read whole, where that can be helped.
@@ -112,11 +113,11 @@ struct FourColumns {
     column[0] = hn::ConcatLowerLower(d, low_ce, low_ab), column[1] = hn::ConcatUpperUpper(d, low_ce, low_ab);
     column[2] = hn::ConcatLowerLower(d, high_ce, high_ab), column[3] = hn::ConcatUpperUpper(d, high_ce, high_ab);
   }
-  // From element i on, of `count`; what lies beyond is as `missing`.
+  // From element i on, of `count`.
   HWY_INLINE FourColumns(const QuadReader& quads, uint32_t i, uint32_t count)
       : FourColumns(i + 4 <= count ? FourColumns(quads.get(i), quads.get(i + 1), quads.get(i + 2), quads.get(i + 3))
-                                   : FourColumns(quads.get_or_missing(i, count), quads.get_or_missing(i + 1, count),
-                                                 quads.get_or_missing(i + 2, count), quads.missing)) {}
+                                   : FourColumns(quads.get_or_first(i, count), quads.get_or_first(i + 1, count),
+                                                 quads.get_or_first(i + 2, count), quads.get_or_first(i + 3, count))) {}
 };
 
 // Eight elements of each column: a vector of doubles is made of what one store has written, or waits for it.
