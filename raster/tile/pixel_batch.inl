@@ -11,10 +11,9 @@ struct ListedLanes {
 
   HWY_INLINE ListedLanes(const SetupBatch& s, __m512i codes) : lane(_mm512_srli_epi32(codes, 12)) {
     const __m512i low = _mm512_set1_epi32(63);
-    const auto anchor = [&](const double* from)
-                            HWY_ATTR { return Take(_mm512_cvtpd_ps(_mm512_load_pd(from))); };
-    dx = _mm512_add_ps(_mm512_cvtepi32_ps(_mm512_and_si512(codes, low)), anchor(s.anchor_x));
-    dy = _mm512_add_ps(_mm512_cvtepi32_ps(_mm512_and_si512(_mm512_srli_epi32(codes, 6), low)), anchor(s.anchor_y));
+    const __m512i y = _mm512_and_si512(_mm512_srli_epi32(codes, 6), low);
+    dx = _mm512_add_ps(_mm512_cvtepi32_ps(_mm512_and_si512(codes, low)), Take(s.anchor_x_f));
+    dy = _mm512_add_ps(_mm512_cvtepi32_ps(y), Take(s.anchor_y_f));
   }
 
   HWY_INLINE __m512 Take(__m256 eight) const {
@@ -80,16 +79,21 @@ HWY_INLINE int TestListed(const SetupBatch& s, const DepthState& test, uint32_t*
   __m512i codes = _mm512_loadu_si512(list.codes + i);
   int count = list.count - i < kListLanes ? list.count - i : kListLanes;
   auto live = static_cast<__mmask16>((1u << count) - 1);
-  const __m512i same = SameBefore(OffsetOf(codes));
+  __m512i places = OffsetOf(codes);
+  const __m512i same = SameBefore(places);
   const __mmask16 repeated = live & _mm512_test_epi32_mask(same, _mm512_set1_epi32(-1));
   if (HWY_UNLIKELY(repeated != 0)) {
     count = __builtin_ctz(repeated);
     live = static_cast<__mmask16>((1u << count) - 1);
   }
   // Others stand for the first one, whose depth is written last.
-  codes = _mm512_mask_mov_epi32(_mm512_broadcastd_epi32(_mm512_castsi512_si128(codes)), live, codes);
+  const auto first_for_others = [&](__m512i v) HWY_ATTR {
+    return _mm512_mask_mov_epi32(_mm512_broadcastd_epi32(_mm512_castsi512_si128(v)), live, v);
+  };
+  codes = first_for_others(codes);
+  places = first_for_others(places);
   alignas(64) uint32_t at[kListLanes], values[kListLanes];
-  _mm512_store_si512(at, OffsetOf(codes));
+  _mm512_store_si512(at, places);
   KeepInMemory(at);
   const ListedLanes lanes(s, codes);
   const __m512i z = _mm512_inserti64x4(_mm512_castsi256_si512(lanes.Depth<0>(s)), lanes.Depth<1>(s), 1);
