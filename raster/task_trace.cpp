@@ -1,5 +1,6 @@
 #include "raster/task_trace.h"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdlib>
 #include <ctime>
@@ -12,13 +13,24 @@ uint64_t thread_nanoseconds() {
   return static_cast<uint64_t>(time.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(time.tv_nsec);
 }
 
+uint64_t thread_clock_cost() {
+  uint64_t least = ~uint64_t{0};
+  for (int i = 0; i < 100; ++i) {
+    const uint64_t start = thread_nanoseconds();
+    least = std::min(least, thread_nanoseconds() - start);
+  }
+  return least;
+}
+
 std::unique_ptr<TaskTrace> TaskTrace::create(int threads) {
   const char* path = std::getenv("HALFSPACE_TRACE");
   return path == nullptr || *path == '\0' ? nullptr : std::make_unique<TaskTrace>(path, threads);
 }
 
 TaskTrace::TaskTrace(const std::string& path, int threads)
-    : file_(std::fopen(path.c_str(), "a")), serial_since_(thread_nanoseconds()) {
+    : file_(std::fopen(path.c_str(), "a")),
+      clock_cost_(thread_clock_cost()),
+      serial_since_(thread_nanoseconds()) {
   if (file_ == nullptr)
     std::perror(("halfspace: HALFSPACE_TRACE=" + path).c_str());
   else
@@ -29,7 +41,8 @@ TaskTrace::~TaskTrace() {
   if (file_ == nullptr) return;
   for (const Event& event : events_) {
     std::fputs(event.name, file_);
-    for (uint32_t i = 0; i < event.count; ++i) std::fprintf(file_, " %" PRIu64, event.times[i]);
+    for (uint32_t i = 0; i < event.count; ++i)
+      std::fprintf(file_, " %" PRIu64, event.times[i] - std::min(event.times[i], clock_cost_));
     std::fputc('\n', file_);
   }
   std::fclose(file_);

@@ -11,6 +11,9 @@ namespace halfspace::raster {
 
 // CPU time of the calling thread: how long something takes when nobody else wants the core.
 uint64_t thread_nanoseconds();
+// What it adds to a time that is taken with it: a microsecond where the system is asked, which is more than
+// many a tile takes.
+uint64_t thread_clock_cost();
 
 // Events of the thread that owns the pool, in order. Written to HALFSPACE_TRACE when the pool ends, a line
 // each; times are nanoseconds of CPU time:
@@ -47,6 +50,7 @@ class TaskTrace {
   uint64_t* add(const char* name, uint32_t count);
 
   std::FILE* file_;
+  const uint64_t clock_cost_;  // in each time, until they are written
   std::vector<Event> events_;
   uint64_t serial_since_;
 };
