@@ -293,20 +293,40 @@ class Assembler {
         line(lines.ends[2 * lane], lines.ends[2 * lane + 1]);
         continue;
       }
-      for (int ty = group.tile_y0[lane]; ty <= group.tile_y1[lane]; ++ty)
-        for (int tx = group.tile_x0[lane]; tx <= group.tile_x1[lane]; ++tx)
-          bin_packet(group, lane, tile_at(tx, ty));
+      if (group.whole[lane] != 0) {
+        bin_whole(group, lane);
+        continue;
+      }
+      for (const LineGroup::Part& part : group.parts) {
+        if (part.count[lane] < 1) continue;
+        PacketBin& bin = line_bin(tile_at(part.x[lane], part.y[lane]));
+        take_packet(bin, group.write(lane, part, bin.next));
+      }
     }
     lines.count = 0;
   }
 
-  void bin_packet(const LineGroup& group, int lane, uint32_t tile) {
+  void bin_whole(const LineGroup& group, int lane) {
+    for (int ty = group.tile_y0[lane]; ty <= group.tile_y1[lane]; ++ty)
+      for (int tx = group.tile_x0[lane]; tx <= group.tile_x1[lane]; ++tx) {
+        const int x = tx * kTileSize, y = ty * kTileSize;
+        PacketBin& bin = line_bin(tile_at(tx, ty));
+        take_packet(bin, group.write_within(lane, intersect(bounds_, {x, y, x + kTileSize, y + kTileSize}),
+                                            bin.next));
+      }
+  }
+
+  // With room for a packet.
+  PacketBin& line_bin(uint32_t tile) {
     PacketBin& bin = segment_.packets.bins()[tile];
     if (size_t(bin.limit - bin.next) < segment_.packets.largest()) open_run(tile, PrimitiveKind::line_run);
-    bin.next = group.write(lane, bin.next);
+    return bin;
+  }
+  static void take_packet(PacketBin& bin, std::byte* end) {
+    bin.next = end;
     // For the next one: many others come between.
-    __builtin_prefetch(bin.next, 1);
-    __builtin_prefetch(bin.next + 64, 1);
+    __builtin_prefetch(end, 1);
+    __builtin_prefetch(end + 64, 1);
   }
 
   uint32_t tile_at(int tx, int ty) const { return uint32_t(ty * segment_.tiles_x + tx); }

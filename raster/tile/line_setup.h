@@ -13,34 +13,34 @@ namespace halfspace::raster {
 
 // What packets of eight lines are made of, in pieces as vectors store them; and where they belong.
 struct alignas(64) LineGroup {
-  double place[kSetupLanes][2];  // and step
-  float anchor[kSetupLanes]
-              [4];  // x, y, and the bits of `first` and of `shape` without the variant and the size
+  // What lies in one tile: a line that is no longer than a tile comes in three parts at most.
+  struct Part {
+    double place[kSetupLanes][2];  // and step
+    float anchor[kSetupLanes][4];  // x, y, and the bits of `first` and of `shape`
+    alignas(32) int32_t count[kSetupLanes], x[kSetupLanes], y[kSetupLanes];  // of columns; and which tile
+  };
+  static constexpr int kParts = 3;
+  Part parts[kParts];
   double depth[kSetupLanes][4];
   float plane[kMaxPlanes][kSetupLanes][4];  // f0, dfdy, dfdx
-  alignas(32) uint32_t shape[kSetupLanes];
   int plane_end;
   bool has_depth;
-  // Tiles its fragments within the draw's bounds lie in, inclusive; none where the second is less than the
-  // first.
+  alignas(32) int32_t variant[kSetupLanes];
+  // -1: of the line, which is longer or reaches beyond the draw's bounds, the first part is all.
+  alignas(32) int32_t whole[kSetupLanes];
+  // Tiles its fragments within the draw's bounds may lie in, inclusive; none where the second is less than
+  // the first.
   alignas(32) int32_t tile_x0[kSetupLanes], tile_y0[kSetupLanes], tile_x1[kSetupLanes], tile_y1[kSetupLanes];
 
-  SetupBatch planes;  // which the pieces are made from; the variants are looked up here
-
   bool is_drawn(int lane) const { return tile_x0[lane] <= tile_x1[lane] && tile_y0[lane] <= tile_y1[lane]; }
-  bool needs_double(int lane) const { return (planes.variant[lane] & kDouble) != 0; }
+  bool needs_double(int lane) const { return (variant[lane] & kDouble) != 0; }
 
   // Gives where the packet ends. Pieces of 16 bytes, of which the last are overwritten by the next.
-  std::byte* write(int lane, std::byte* to) const {
-    const int first = (planes.variant[lane] & kAffine) != 0 ? 2 : 1;
-    const size_t bytes = line_packet_bytes(plane_end - first, has_depth);
-    std::byte* const end = to + bytes;
-    std::memcpy(to, place[lane], 16);
-    std::memcpy(to + 16, anchor[lane], 16);
-    const uint32_t word = shape[lane] |
-                          static_cast<uint32_t>(planes.variant[lane]) << LinePacket::kVariantAt |
-                          static_cast<uint32_t>(bytes / 8) << LinePacket::kBytesAt;
-    std::memcpy(to + offsetof(LinePacket, shape), &word, sizeof word);
+  std::byte* write(int lane, const Part& part, std::byte* to) const {
+    const int first = (variant[lane] & kAffine) != 0 ? 2 : 1;
+    std::byte* const end = to + line_packet_bytes(plane_end - first, has_depth);
+    std::memcpy(to, part.place[lane], 16);
+    std::memcpy(to + offsetof(LinePacket, anchor_x), part.anchor[lane], 16);
     to += sizeof(LinePacket);
     if (has_depth) {
       std::memcpy(to, depth[lane], 3 * sizeof(double));
@@ -48,6 +48,17 @@ struct alignas(64) LineGroup {
     }
     for (int p = first; p < plane_end - 1; ++p, to += 12) std::memcpy(to, plane[p][lane], 16);
     if (first < plane_end) std::memcpy(to, plane[plane_end - 1][lane], 12);
+    return end;
+  }
+
+  // The same of what of all the line lies in the window; where that is nothing, gives `to`.
+  std::byte* write_within(int lane, const Rect& window, std::byte* to) const {
+    LinePacket packet;
+    std::memcpy(&packet, parts[0].place[lane], 16);
+    std::memcpy(&packet.anchor_x, parts[0].anchor[lane], 16);
+    if (!packet.cut_to({window, packet.steep()})) return to;
+    std::byte* const end = write(lane, parts[0], to);
+    std::memcpy(to, &packet, sizeof packet);
     return end;
   }
 };

@@ -42,7 +42,7 @@ struct LineColumns {
   static constexpr int kHalf = kSubpixelScale / 2;
   VDi first, count;  // there is a fragment in each; none where count < 1
   VDi steep;         // -1 or 0
-  VDi low, high;     // pixels along v
+  VDi from, to;      // pixels along v, of the first and the last
   VD place, step;    // as LinePacket has them
   VDi x0, y0, sum, difference;
 
@@ -91,9 +91,8 @@ struct LineColumns {
     first = hn::Add(begin, front);
     count = hn::Sub(hn::Sub(last, first), hn::IfThenElse(has_last, hn::Set(di, -1), zero));
     place = hn::Add(place, hn::Mul(step, hn::PromoteTo(d, front)));
-    const VDi from = Row(place);
-    const VDi to = Row(hn::Add(place, hn::Mul(step, hn::PromoteTo(d, hn::Sub(count, one)))));
-    low = hn::Min(from, to), high = hn::Max(from, to);
+    from = Row(place);
+    to = Row(hn::Add(place, hn::Mul(step, hn::PromoteTo(d, hn::Sub(count, one)))));
   }
 
   static HWY_INLINE VDi ColumnBelow(VDi u) {
@@ -173,34 +172,94 @@ HWY_INLINE void SpreadLines(const LineRecords& from, const QuadPlan& quads, int 
   }
 }
 
-HWY_INLINE void StoreTiles(const LineColumns& line, const Rect& bounds, int i, LineGroup& out) {
+HWY_INLINE VDi TileOf(VDi pixel) {
+  static_assert(kTileSize == 64);
+  return hn::ShiftRight<6>(pixel);
+}
+HWY_INLINE VDi PixelOf(VDi tile) { return hn::ShiftLeft<6>(tile); }
+
+// Gives which lines lie all within the bounds.
+HWY_INLINE hn::Mask<DDi> StoreTiles(const LineColumns& line, const Rect& bounds, int i, LineGroup& out) {
   const DDi d;
   const auto steep = hn::MaskFromVec(line.steep);
+  const VDi lower = hn::Min(line.from, line.to), upper = hn::Max(line.from, line.to);
   const VDi one = hn::Set(d, 1), last = hn::Sub(hn::Add(line.first, line.count), one);
-  const auto tile = [&](VDi v) HWY_ATTR { return hn::ShiftRight<6>(v); };
-  static_assert(kTileSize == 64);
   const auto store = [&](VDi low, VDi high, int from, int to, int32_t* least, int32_t* most) HWY_ATTR {
     const VDi begin = hn::Max(low, hn::Set(d, from)), end = hn::Min(high, hn::Set(d, to - 1));
-    hn::Store(tile(begin), d, least + i);
-    hn::Store(hn::IfThenElse(hn::Lt(end, begin), hn::Set(d, -1), tile(end)), d, most + i);
+    hn::Store(TileOf(begin), d, least + i);
+    hn::Store(hn::IfThenElse(hn::Lt(end, begin), hn::Set(d, -1), TileOf(end)), d, most + i);
+    return hn::And(hn::Eq(begin, low), hn::Eq(end, high));
   };
-  store(hn::IfThenElse(steep, line.low, line.first), hn::IfThenElse(steep, line.high, last), bounds.x0,
-        bounds.x1, out.tile_x0, out.tile_x1);
-  store(hn::IfThenElse(steep, line.first, line.low), hn::IfThenElse(steep, last, line.high), bounds.y0,
-        bounds.y1, out.tile_y0, out.tile_y1);
+  const auto within_x = store(hn::IfThenElse(steep, lower, line.first), hn::IfThenElse(steep, upper, last),
+                              bounds.x0, bounds.x1, out.tile_x0, out.tile_x1);
+  const auto within_y = store(hn::IfThenElse(steep, line.first, lower), hn::IfThenElse(steep, last, upper),
+                              bounds.y0, bounds.y1, out.tile_y0, out.tile_y1);
   // None at all: then that of the longer axis is empty already.
+  return hn::And(within_x, within_y);
 }
 
-HWY_INLINE void StoreColumns(const LineColumns& line, const SetupBatch& s, int i, LineGroup& out) {
+// Cuts lines where they go from tile to tile: once along either axis, since they are no longer than a tile.
+struct LineCuts {
+  VDi first, second;       // columns before the one cut, and before the other
+  VDi u[3], v[3];          // which tiles the parts are in
+  hn::Mask<DDi> is_whole;  // longer, or beyond the bounds
+
+  HWY_INLINE LineCuts(const LineColumns& line, hn::Mask<DDi> is_within) {
+    const DD d;
+    const DDi di;
+    const VDi one = hn::Set(di, 1);
+    u[0] = TileOf(line.first), v[0] = TileOf(line.from);
+    u[2] = TileOf(hn::Sub(hn::Add(line.first, line.count), one)), v[2] = TileOf(line.to);
+    is_whole = hn::Or(hn::Not(is_within), hn::Gt(line.count, hn::Set(di, kTileSize)));
+    // In no column does the line come to just where a pixel begins.
+    const auto crosses = hn::AndNot(is_whole, hn::Ne(v[0], v[2]));
+    const auto crosses_in_double = hn::Ne(hn::PromoteTo(d, hn::VecFromMask(di, crosses)), hn::Zero(d));
+    const VD edge = hn::PromoteTo(d, PixelOf(hn::Max(v[0], v[2])));
+    const VD step = hn::IfThenElse(crosses_in_double, line.step, hn::Set(d, 1));
+    const VD columns = hn::IfThenElseZero(crosses_in_double, hn::Div(hn::Sub(edge, line.place), step));
+    const VDi beyond = hn::Add(hn::DemoteTo(di, hn::Floor(columns)), one);
+    const VDi across = hn::IfThenElse(crosses, beyond, line.count);
+    const VDi left = hn::Min(line.count, hn::Sub(PixelOf(hn::Add(u[0], one)), line.first));
+    const VDi along = hn::IfThenElse(is_whole, line.count, left);
+    first = hn::Min(across, along), second = hn::Max(across, along);
+    const auto along_first = hn::Lt(along, across);
+    u[1] = hn::IfThenElse(along_first, u[2], u[0]), v[1] = hn::IfThenElse(along_first, v[0], v[2]);
+  }
+};
+
+HWY_INLINE void StoreParts(const LineColumns& line, const LineCuts& cuts, VDi shape, const SetupBatch& s,
+                           int i, LineGroup& out) {
   const DD d;
   const DDi di;
   const DDf df;
-  hn::StoreInterleaved2(line.place, line.step, d, out.place[i]);
-  const VDi steep = hn::And(line.steep, hn::Set(di, static_cast<int32_t>(LinePacket::kSteep)));
-  const VDi shape = hn::Or(line.count, steep);
-  hn::Store(shape, di, reinterpret_cast<int32_t*>(out.shape + i));
-  hn::StoreInterleaved4(hn::Load(df, s.anchor_x_f + i), hn::Load(df, s.anchor_y_f + i),
-                        hn::BitCast(df, line.first), hn::BitCast(df, shape), df, out.anchor[i]);
+  const auto steep = hn::MaskFromVec(line.steep);
+  const VDi begins[LineGroup::kParts + 1] = {hn::Zero(di), cuts.first, cuts.second, line.count};
+  for (int k = 0; k < LineGroup::kParts; ++k) {
+    LineGroup::Part& part = out.parts[k];
+    const VDi count = hn::Sub(begins[k + 1], begins[k]);
+    hn::Store(count, di, part.count + i);
+    hn::Store(hn::IfThenElse(steep, cuts.v[k], cuts.u[k]), di, part.x + i);
+    hn::Store(hn::IfThenElse(steep, cuts.u[k], cuts.v[k]), di, part.y + i);
+    const VD place = hn::Add(line.place, hn::Mul(line.step, hn::PromoteTo(d, begins[k])));
+    hn::StoreInterleaved2(place, line.step, d, part.place[i]);
+    const VDi first = hn::Add(line.first, begins[k]);
+    hn::StoreInterleaved4(hn::Load(df, s.anchor_x_f + i), hn::Load(df, s.anchor_y_f + i),
+                          hn::BitCast(df, first), hn::BitCast(df, hn::Or(shape, count)), df, part.anchor[i]);
+  }
+  hn::Store(hn::VecFromMask(di, cuts.is_whole), di, out.whole + i);
+}
+
+// LinePacket::shape, but for the columns.
+HWY_INLINE VDi LineShape(const LineColumns& line, VDi variant, const LineGroup& out) {
+  const DDi d;
+  const auto bytes = [&](int first_plane) HWY_ATTR {
+    const size_t all = line_packet_bytes(out.plane_end - first_plane, out.has_depth);
+    return hn::Set(d, static_cast<int32_t>(all / 8));
+  };
+  const auto affine = hn::Ne(hn::And(variant, hn::Set(d, kAffine)), hn::Zero(d));
+  const VDi steep = hn::And(line.steep, hn::Set(d, static_cast<int32_t>(LinePacket::kSteep)));
+  return hn::Or(hn::Or(steep, hn::ShiftLeft<LinePacket::kVariantAt>(variant)),
+                hn::ShiftLeft<LinePacket::kBytesAt>(hn::IfThenElse(affine, bytes(2), bytes(1))));
 }
 
 // Planes `first` and up of the set-up.
@@ -237,7 +296,7 @@ void MakeLines(const DrawRecord& draw, const LineRecords& from, int count, LineG
   const FragmentParams& params = draw.program->params;
   const QuadPlan quads(layout.attribute_count);
   SetupInput in;
-  SetupBatch& planes = out.planes;
+  SetupBatch planes;
   out.plane_end = 2 + layout.attribute_count;
   out.has_depth = draw.program->reads_depth;
   const VD middle = hn::Set(d, static_cast<double>(kSubpixelScale / 2));
@@ -247,9 +306,10 @@ void MakeLines(const DrawRecord& draw, const LineRecords& from, int count, LineG
     SpreadLines(from, quads, layout.attribute_count, i, ends, v, in);
     const LineColumns columns(ends);
     SetAnchor(v, i, middle, middle, planes);
-    SetPlanes(in, layout, params, v, i, planes);
-    StoreTiles(columns, draw.bounds, i, out);
-    StoreColumns(columns, planes, i, out);
+    const VDi variant = hn::DemoteTo(DDi(), SetPlanes(in, layout, params, v, out.has_depth, i, planes));
+    hn::Store(variant, DDi(), out.variant + i);
+    const LineCuts cuts(columns, StoreTiles(columns, draw.bounds, i, out));
+    StoreParts(columns, cuts, LineShape(columns, variant, out), planes, i, out);
     const bool affine = hn::AllTrue(d, hn::Eq(v.inv_w[0], v.inv_w[1]));
     StoreLinePlanes(planes, affine ? 2 : 1, i, out);
   }

@@ -9,62 +9,51 @@ inline constexpr int kPixelLanes = static_cast<int>(hn::MaxLanes(DLi()));
 inline constexpr int kShortLanes = kPixelLanes == 16 ? 8 : 0;
 using DLfShort = hn::CappedTag<float, kPixelLanes == 16 ? 8 : 16>;
 
-// What of a tile may be drawn on, along a line's longer axis and along the other.
-struct LineWindow {
-  int32_t u0, u1, v0, v1;
+// Of a line's columns, 0 to 63.
+struct ColumnNumbers {
+  alignas(64) double of[kTileSize];
 };
+inline constexpr ColumnNumbers kColumns = [] {
+  ColumnNumbers columns{};
+  for (int i = 0; i < kTileSize; ++i) columns.of[i] = i;
+  return columns;
+}();
 
-// Fragments of neighbouring columns.
+// Fragments of neighbouring columns; of columns that come after the line's last, too.
 template <class Floats>
 struct LinePiece {
   using Ints = hn::RebindToSigned<Floats>;
   static constexpr int kLanes = static_cast<int>(hn::MaxLanes(Ints()));
-  hn::Vec<Ints> x, y;  // the first `count` lanes
-  int count;
+  hn::Vec<Ints> x, y;
 
-  // In columns [column, end) of the window, of which a vector may hold a part.
-  HWY_INLINE LinePiece(const LinePacket& line, int column, int end, const LineWindow& window) {
+  // From the line's `column` on, a multiple of the lanes.
+  HWY_INLINE LinePiece(const LinePacket& line, int column) {
     const Ints d;
-    const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, column));
+    const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, line.first + column));
     const auto v = Rows(line, column);
-    const hn::RebindToUnsigned<Ints> words;
-    const auto above = hn::BitCast(words, hn::Sub(v, hn::Set(d, window.v0)));
-    const auto inside = hn::Lt(above, hn::Set(words, static_cast<uint32_t>(window.v1 - window.v0)));
-    const auto live = hn::And(hn::RebindMask(d, inside), hn::Lt(u, hn::Set(d, end)));
     const auto steep = hn::MaskFromVec(hn::Set(d, line.steep() ? -1 : 0));
-    x = ToTheFront(hn::IfThenElse(steep, v, u), live);
-    y = ToTheFront(hn::IfThenElse(steep, u, v), live);
-    count = static_cast<int>(hn::CountTrue(d, live));
+    x = hn::IfThenElse(steep, v, u);
+    y = hn::IfThenElse(steep, u, v);
   }
 
  private:
   static HWY_INLINE hn::Vec<Ints> Rows(const LinePacket& line, int column) {
     const DD d;
-    const VD at = hn::Set(d, line.place + line.step * static_cast<double>(column - line.first));
-    const VD step = hn::Set(d, line.step);
+    const VD at = hn::Set(d, line.place), step = hn::Set(d, line.step);
+    const auto rows = [&](int i) HWY_ATTR {
+      const VD place = hn::Add(at, hn::Mul(step, hn::Load(d, kColumns.of + column + i)));
 #if HWY_TARGET == HWY_AVX3
-    const auto rows = [&](VD index) HWY_ATTR {
-      const VD place = hn::Add(at, hn::Mul(step, index));
       return hn::Vec<DDi>{_mm512_cvt_roundpd_epi32(place.raw, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)};
-    };
 #else
-    const auto rows = [&](VD index) HWY_ATTR {
-      return hn::DemoteTo(DDi(), hn::Floor(hn::Add(at, hn::Mul(step, index))));
-    };
+      return hn::DemoteTo(DDi(), hn::Floor(place));
 #endif
+    };
 #if HWY_TARGET != HWY_SCALAR
     if constexpr (kLanes == 2 * kDoubleLanes)
-      return hn::Combine(Ints(), rows(hn::Iota(d, kDoubleLanes)), rows(hn::Iota(d, 0)));
+      return hn::Combine(Ints(), rows(kDoubleLanes), rows(0));
     else
 #endif
-      return rows(hn::Iota(d, 0));
-  }
-  static HWY_INLINE hn::Vec<Ints> ToTheFront(hn::Vec<Ints> v, hn::Mask<Ints> live) {
-#if HWY_TARGET == HWY_AVX2
-    return Squeeze(live)(v);
-#else
-    return hn::Compress(v, live);
-#endif
+      return rows(0);
   }
 };
 
@@ -79,18 +68,18 @@ HWY_INLINE uint64_t RectBlocks(int x0, int y0, int x1, int y1) {
 }
 
 // With a depth test, a vector of the queue's length at a time; its lanes beyond the last stand for the first.
-HWY_NOINLINE void TestAndPackPiece(TileContext& t, const LinePiece<DLf>& piece, unsigned variant) {
+HWY_NOINLINE void TestAndPackPiece(TileContext& t, const LinePiece<DLf>& piece, int count, unsigned variant) {
   const DIq d;
   alignas(64) int32_t px[kPixelLanes], py[kPixelLanes];
   hn::Store(hn::And(piece.x, hn::Set(DLi(), kTileSize - 1)), DLi(), px);
   hn::Store(hn::And(piece.y, hn::Set(DLi(), kTileSize - 1)), DLi(), py);
-  const int last = piece.count - 1;
-  uint32_t* depth = PreparePacking(t, variant, piece.count, RectBlocks(px[0], py[0], px[last], py[last]));
-  for (int i = 0; i < piece.count; i += kQueueLanes) {
-    const auto taken = hn::Lt(hn::Iota(d, 0), hn::Set(d, piece.count - i));
+  const int last = count - 1;
+  uint32_t* depth = PreparePacking(t, variant, count, RectBlocks(px[0], py[0], px[last], py[last]));
+  for (int i = 0; i < count; i += kQueueLanes) {
+    const auto taken = hn::Lt(hn::Iota(d, 0), hn::Set(d, count - i));
     const auto x = hn::IfThenElse(taken, hn::Load(d, px + i), hn::Set(d, px[i]));
     const auto y = hn::IfThenElse(taken, hn::Load(d, py + i), hn::Set(d, py[i]));
-    t.packer.AppendGroup(t.setup, 0, x, y, piece.count - i, *t.program, t.plane_count, depth);
+    t.packer.AppendGroup(t.setup, 0, x, y, count - i, *t.program, t.plane_count, depth);
   }
 }
 
@@ -130,10 +119,11 @@ HWY_INLINE void QueuePiece(const LinePacket& line, const LinePiece<Floats>& piec
   } else {
     for (int p = first; p < plane_count; ++p) store(p);
   }
-  const auto high = hn::Set(d, 56), low = hn::Set(d, 7);
-  const auto block =
-      hn::Add(hn::ShiftLeft<6>(hn::And(piece.y, high)), hn::ShiftLeft<3>(hn::And(piece.x, high)));
-  const auto offset = hn::Add(block, hn::Add(hn::ShiftLeft<3>(hn::And(piece.y, low)), hn::And(piece.x, low)));
+  // As TileOffset has it.
+  const auto bits = [&](int which) HWY_ATTR { return hn::Set(d, which); };
+  const auto in_row = hn::OrAnd(hn::And(piece.x, bits(7)), hn::ShiftLeft<3>(piece.x), bits(7 << 6));
+  const auto in_block_row = hn::OrAnd(in_row, hn::ShiftLeft<3>(piece.y), bits(7 << 3));
+  const auto offset = hn::OrAnd(in_block_row, hn::ShiftLeft<6>(piece.y), bits(7 << 9));
   hn::StoreU(offset, d, queue.offset + count);
   // Every other pixel is in the cache line of its neighbour.
   for (int i = 0; i < LinePiece<Floats>::kLanes; i += 2)
@@ -152,40 +142,20 @@ void UnpackPlanes(const LinePacket& line, const float* planes, int plane_count, 
     s.f0_f[p][0] = planes[0], s.dfdy_f[p][0] = planes[1], s.dfdx_f[p][0] = planes[2];
 }
 
-// What a tile's packets are drawn on, and which of a line's columns are.
-struct LineWindows {
-  LineWindow of[2];  // of lines that are not steep, and of those that are
-
-  HWY_INLINE explicit LineWindows(const TileContext& t) {
-    const Rect& limit = t.limit;
-    of[0] = {t.x + limit.x0, t.x + limit.x1, t.y + limit.y0, t.y + limit.y1};
-    of[1] = {of[0].v0, of[0].v1, of[0].u0, of[0].u1};
-  }
-  HWY_INLINE const LineWindow& Of(const LinePacket& line) const { return of[line.steep() ? 1 : 0]; }
-};
-HWY_INLINE int FirstColumn(const LinePacket& line, const LineWindow& w) {
-  return line.first > w.u0 ? line.first : w.u0;
-}
-HWY_INLINE int EndColumn(const LinePacket& line, const LineWindow& w) {
-  const int end = line.first + line.count();
-  return end < w.u1 ? end : w.u1;
-}
 HWY_INLINE const LinePacket& PacketAt(const std::byte* at) {
   return *reinterpret_cast<const LinePacket*>(at);
 }
 
 // Lines without a depth test.
 void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
-  const LineWindows windows(t);
   PixelQueue& queue = t.packer.queue;
   const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
   const int plane_count = t.plane_count;
   int count = queue.count;  // in a register: stores of planes might be to the queue's
   uint64_t fragments = 0;
-  const auto add = [&](const LinePacket& line, const auto& piece) HWY_ATTR {
+  const auto add = [&](const LinePacket& line, const auto& piece, int pixels) HWY_ATTR {
     QueuePiece(line, piece, line.variant() != 0 ? 2 : 1, plane_count, color, count, queue);
-    count += piece.count;
-    fragments += static_cast<uint64_t>(piece.count);
+    count += pixels;
     if (count < PixelQueue::kCapacity) return;
     queue.count = count;
     ShadeWholeQueue(t);
@@ -193,7 +163,6 @@ void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
   };
   for (; from < end; from += PacketAt(from).bytes()) {
     const LinePacket& line = PacketAt(from);
-    const LineWindow& window = windows.Of(line);
     const unsigned variant = line.variant();
     if (HWY_UNLIKELY(t.packer.variant != variant)) {
       queue.count = count;
@@ -201,11 +170,14 @@ void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
       count = 0;
       t.packer.variant = variant;
     }
-    const int last = EndColumn(line, window);
-    int column = FirstColumn(line, window);
-    for (; last - column > kShortLanes; column += kPixelLanes)
-      add(line, LinePiece<DLf>(line, column, last, window));
-    if (kShortLanes != 0 && column < last) add(line, LinePiece<DLfShort>(line, column, last, window));
+    const int columns = line.count();
+    fragments += static_cast<uint64_t>(columns);
+    int column = 0;
+    for (; columns - column > kShortLanes; column += kPixelLanes) {
+      const int left = columns - column;
+      add(line, LinePiece<DLf>(line, column), left < kPixelLanes ? left : kPixelLanes);
+    }
+    if (kShortLanes != 0 && column < columns) add(line, LinePiece<DLfShort>(line, column), columns - column);
   }
   queue.count = count;
   t.statistics->fragments += fragments;
@@ -213,37 +185,25 @@ void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
 
 // With one.
 void TestLines(TileContext& t, const std::byte* from, const std::byte* end) {
-  const LineWindows windows(t);
   for (; from < end; from += PacketAt(from).bytes()) {
     const LinePacket& line = PacketAt(from);
-    const LineWindow& window = windows.Of(line);
     UnpackPlanes(line, reinterpret_cast<const float*>(&line + 1) + 6, t.plane_count, t.x, t.y, t.setup);
-    const int last = EndColumn(line, window);
-    for (int column = FirstColumn(line, window); column < last; column += kPixelLanes) {
-      const LinePiece<DLf> piece(line, column, last, window);
-      if (piece.count != 0) TestAndPackPiece(t, piece, line.variant());
+    for (int column = 0; column < line.count(); column += kPixelLanes) {
+      const int left = line.count() - column, count = left < kPixelLanes ? left : kPixelLanes;
+      TestAndPackPiece(t, LinePiece<DLf>(line, column), count, line.variant());
     }
   }
 }
 
 // Blocks of the tile that lines may have fragments in.
-uint64_t LineBlocks(const TileContext& t, const std::byte* from, const std::byte* end) {
-  const LineWindows windows(t);
+uint64_t LineBlocks(const std::byte* from, const std::byte* end) {
   uint64_t blocks = 0;
   for (; from < end; from += PacketAt(from).bytes()) {
     const LinePacket& line = PacketAt(from);
-    const LineWindow& w = windows.Of(line);
-    const int first = FirstColumn(line, w) - w.u0, last = EndColumn(line, w) - 1 - w.u0;
-    if (last < first) continue;
-    const auto row = [&](int column) HWY_ATTR {
-      const int v =
-          static_cast<int>(line.place + line.step * static_cast<double>(column + w.u0 - line.first)) - w.v0;
-      const int high = w.v1 - 1 - w.v0;
-      return v < 0 ? 0 : (v < high ? v : high);
-    };
-    const Rect& l = t.limit;
-    blocks |= line.steep() ? RectBlocks(l.x0 + row(first), l.y0 + first, l.x0 + row(last), l.y0 + last)
-                           : RectBlocks(l.x0 + first, l.y0 + row(first), l.x0 + last, l.y0 + row(last));
+    const int last = line.count() - 1;
+    const int u0 = line.first % kTileSize, v0 = line.row(0) % kTileSize;
+    const int u1 = u0 + last, v1 = line.row(last) % kTileSize;
+    blocks |= line.steep() ? RectBlocks(v0, u0, v1, u1) : RectBlocks(u0, v0, u1, v1);
   }
   return blocks;
 }
@@ -252,11 +212,12 @@ inline constexpr int kManyLines = 12;
 
 // Packets from `from` on, up to `end`.
 void RunLinePackets(TileContext& t, const std::byte* from, const std::byte* end) {
+  if (from == end) return;
   if (t.program->reads_depth) return TestLines(t, from, end);
   if (t.state->color[t.program->plane].is_clear != 0) {
     // Many lines reach most of a tile, and to see where they lie would take longer than to store the rest.
     const bool many = end - from >= kManyLines * static_cast<ptrdiff_t>(PacketAt(from).bytes());
-    PrepareWindow(t, many ? ~uint64_t{0} : LineBlocks(t, from, end));
+    PrepareWindow(t, many ? ~uint64_t{0} : LineBlocks(from, end));
   }
   StreamLines(t, from, end);
   t.packer.blocks = ~uint64_t{0};  // at the end, since whatever shades the queue on the way clears it
@@ -281,6 +242,12 @@ HWY_INLINE bool ArePlainLines(const TileContext& t, const Segment& segment, cons
   return true;
 }
 
+HWY_INLINE std::byte* WritePartOfTile(const LineGroup& group, int lane, int x, int y, std::byte* to) {
+  for (const LineGroup::Part& part : group.parts)
+    if (part.count[lane] > 0 && part.x[lane] == x && part.y[lane] == y) return group.write(lane, part, to);
+  return to;
+}
+
 // Lines that were not set up for all their tiles: edges of polygons, and those of small draws. Draws the
 // batch, up to the first line whose planes have to be double; returns where it stopped. The last vertex of
 // each gives its flat colour.
@@ -290,8 +257,12 @@ int RunPlainLines(TileContext& t, const DrawRecord& draw, const BatchRefs& refs,
   alignas(64) std::byte packets[kSetupLanes * kMostLineBytes];
   std::byte* end = packets;
   int lane = 0;
-  for (; lane < count && !group.needs_double(lane); ++lane)
-    if (group.is_drawn(lane)) end = group.write(lane, end);
+  const Rect window{t.x + t.limit.x0, t.y + t.limit.y0, t.x + t.limit.x1, t.y + t.limit.y1};
+  for (; lane < count && !group.needs_double(lane); ++lane) {
+    if (!group.is_drawn(lane)) continue;
+    if (group.whole[lane] != 0) end = group.write_within(lane, window, end);
+    else end = WritePartOfTile(group, lane, t.x / kTileSize, t.y / kTileSize, end);
+  }
   RunLinePackets(t, packets, end);
   return lane;
 }
@@ -306,17 +277,15 @@ void ListLine(const LineEnds& ends, int tile_x, int tile_y, const Rect& bounds, 
       LineEndVectors{{hn::Set(d, ends.x0), hn::Set(d, ends.x1)}, {hn::Set(d, ends.y0), hn::Set(d, ends.y1)}});
   const int count = hn::GetLane(columns.count), first = hn::GetLane(columns.first);
   const bool steep = hn::GetLane(columns.steep) != 0;
-  const LinePacket line{hn::GetLane(columns.place),    hn::GetLane(columns.step), 0, 0, first,
-                        steep ? LinePacket::kSteep : 0};
-  const LineWindow window =
-      steep ? LineWindow{cut.y0, cut.y1, cut.x0, cut.x1} : LineWindow{cut.x0, cut.x1, cut.y0, cut.y1};
-  const int end = first + count < window.u1 ? first + count : window.u1;
-  for (int column = first > window.u0 ? first : window.u0; column < end; column += kPixelLanes) {
-    const LinePiece<DLf> piece(line, column, end, window);
+  LinePacket line{hn::GetLane(columns.place), hn::GetLane(columns.step), 0, 0, first,
+                  static_cast<uint32_t>(count) | (steep ? LinePacket::kSteep : 0)};
+  if (count < 1 || !line.cut_to({cut, steep})) return;
+  for (int column = 0; column < line.count(); column += kPixelLanes) {
+    const LinePiece<DLf> piece(line, column);
     alignas(64) int32_t px[kPixelLanes], py[kPixelLanes];
     hn::Store(piece.x, DLi(), px);
     hn::Store(piece.y, DLi(), py);
-    for (int j = 0; j < piece.count; ++j, ++out.count) {
+    for (int j = 0; j < kPixelLanes && column + j < line.count(); ++j, ++out.count) {
       out.x[out.count] = static_cast<uint8_t>(px[j] - tile_x);
       out.y[out.count] = static_cast<uint8_t>(py[j] - tile_y);
     }

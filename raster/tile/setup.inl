@@ -293,15 +293,18 @@ HWY_INLINE void StoreColors(const SetupInput& in, const VertexLayout& layout, in
   }
 }
 
-HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, const FragmentParams& params,
-                          const CornerVectors& v, int i, SetupBatch& out) {
+// Gives the variants.
+HWY_INLINE VD SetPlanes(const SetupInput& in, const VertexLayout& layout, const FragmentParams& params,
+                          const CornerVectors& v, bool with_depth, int i, SetupBatch& out) {
   const DD d;
   PlaneMaker maker(v);
   VD value[3];
-  for (int k = 0; k < 3; ++k) value[k] = hn::Mul(v.z[k], hn::Set(d, kDepthScale));
-  maker.Store(value, 0, i, out);
-  hn::Store(hn::Add(hn::Load(d, out.f0[0] + i), hn::Set(d, 0.5)), d,
-            out.f0[0] + i);  // truncation then rounds to nearest
+  if (with_depth) {
+    for (int k = 0; k < 3; ++k) value[k] = hn::Mul(v.z[k], hn::Set(d, kDepthScale));
+    maker.Store(value, 0, i, out);
+    hn::Store(hn::Add(hn::Load(d, out.f0[0] + i), hn::Set(d, 0.5)), d,
+              out.f0[0] + i);  // truncation then rounds to nearest
+  }
   if (!maker.all_affine || layout.projective) maker.StoreInvW(i, out);
   if (layout.color >= 0) StoreColors(in, layout, i, maker, out);
   if (layout.tex_coord >= 0) {
@@ -332,6 +335,7 @@ HWY_INLINE void SetPlanes(const SetupInput& in, const VertexLayout& layout, cons
   alignas(64) int32_t variant[kSetupLanes];
   StoreInt(bits, variant);
   for (int k = 0; k < kDoubleLanes; ++k) out.variant[i + k] = static_cast<uint8_t>(variant[k]);
+  return bits;
 }
 
 HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, const PrimitiveRef& ref,
@@ -455,7 +459,7 @@ HWY_INLINE void SetUpCorners(const Corners& from, const Segment& segment, const 
     }
     SetCoverage(v, i, Corners::kPlain, center_x, center_y, limit, out);
     SetAnchor(v, i, cx, cy, out);
-    SetPlanes(in, layout, params, v, i, out);
+    SetPlanes(in, layout, params, v, true, i, out);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "raster/tile/coverage.h"
 #include "tests/support/canvas.h"
 #include "tests/support/random.h"
 
@@ -162,6 +163,65 @@ TEST(Lines, ManyAreThoseDrawnOneByOne) {
         ASSERT_EQ(first_difference(canvas.read(), expected), "")
             << isa << ", " << threads << " threads, " << variant;
       }
+    }
+  }
+}
+
+// Of whatever length, and wherever tiles and bounds cut them, by cover_line.
+std::vector<bool> covered_by(std::span<const LineEnds> lines, const Rect& bounds, int side) {
+  std::vector<bool> covered(static_cast<size_t>(side) * static_cast<size_t>(side));
+  for (const LineEnds& line : lines) {
+    for (int tile = 0; tile < side / kTileSize * (side / kTileSize); ++tile) {
+      const int x0 = tile % (side / kTileSize) * kTileSize, y0 = tile / (side / kTileSize) * kTileSize;
+      TileCoverage coverage;
+      cover_line(line, 1, {}, x0, y0, bounds, bounds, coverage);
+      for (int b = 0; b < 64; ++b) {
+        for (int i = 0; i < 64; ++i) {
+          const int x = x0 + b % 8 * 8 + i % 8, y = y0 + b / 8 * 8 + i / 8;
+          if ((coverage.touched >> b & 1) != 0 && (coverage.blocks[b] >> i & 1) != 0)
+            covered[static_cast<size_t>(y * side + x)] = true;
+        }
+      }
+    }
+  }
+  return covered;
+}
+
+TEST(Lines, AreCutFromTileToTile) {
+  constexpr int kSide = 3 * kTileSize, kAtOnce = 40;
+  constexpr Rect kScissor{10, 20, 170, 150};
+  Random random(53);
+  for (int round = 0; round < 40; ++round) {
+    const int reach = round % 4 == 0 ? kSide : round % 4 == 1 ? kTileSize + 1 : 30;
+    std::vector<LineEnds> lines;
+    std::vector<Vertex> vertices;
+    const auto place = [&](int64_t low, int64_t high) {
+      const int64_t grid = random.integer(0, 1) == 0 ? 128 : 1;
+      return random.integer(low * 256 / grid, high * 256 / grid) * grid;
+    };
+    for (int i = 0; i < kAtOnce; ++i) {
+      const int64_t x0 = place(-10, kSide + 10), y0 = place(-10, kSide + 10);
+      const int64_t x1 = x0 + place(-reach, reach), y1 = y0 + place(-reach, reach);
+      vertices.push_back(snapped_vertex(x0, y0, kSide));
+      vertices.push_back(snapped_vertex(x1, y1, kSide));
+      lines.push_back({static_cast<int32_t>(x0), static_cast<int32_t>(y0), static_cast<int32_t>(x1),
+                       static_cast<int32_t>(y1)});
+    }
+    DrawState state = plain_state(kSide, kSide);
+    state.raster.scissor_test = round % 2 == 1;
+    state.raster.scissor = kScissor;
+    const std::vector<bool> expected =
+        covered_by(lines, state.raster.scissor_test ? kScissor : Rect{0, 0, kSide, kSide}, kSide);
+    for (const std::string& isa : isa_levels()) {
+      const IsaScope scope(isa);
+      Canvas canvas(kSide, kSide);
+      canvas.clear();
+      canvas.draw(state, Primitive::lines, vertices);
+      const Picture picture = canvas.read();
+      for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+          ASSERT_EQ(picture.pixel(x, y)[0] != 0, expected[static_cast<size_t>(y * kSide + x)])
+              << isa << ", round " << round << ": " << x << ", " << y;
     }
   }
 }
