@@ -58,6 +58,9 @@ MUTATIONS = [
     Mutation("a cut polygon is fanned from its lowest corner, however snapping bent it", "raster/primitive/clip.cpp",
              "if (is_good_apex(p, count, apex, area)) return apex;", "if (area != 0) return apex;",
              "clip_test:Clip.ABentRemainderIsDrawnOnce"),
+    Mutation("triangles cut together are fanned from their lowest corners, too", "raster/primitive/triangle_cut.cpp",
+             "return hn::Ge(least, zero);", "return hn::Eq(zero, zero);",
+             "raster_triangle_cut_test:TriangleCut.PiecesAreTheClippers"),
 
     # ---- planes
     Mutation("the reference vertex is the first one given", "raster/tile/setup_gather.inl",
@@ -80,7 +83,7 @@ MUTATIONS = [
              "return hn::Le(left, right);", "return hn::Ge(hn::Abs(left), hn::Zero(d));",
              "precision_test:PrecisionOnDemand.ColoursOfSliversAreNeverFartherOffThanDerived"),
     Mutation("cut triangles take floats whatever they are", "raster/tile/cut_planes.inl",
-             "!= 0 && fails[k] == 0)", "!= 0)",
+             "static_cast<uint8_t>(fails[__builtin_ctz(todo)])", "0",
              "precision_test:PrecisionOnDemand.CoordinatesOfCutTrianglesAreAsNear"),
     Mutation("the closer look lets every plane through as floats", "raster/tile/corner_bounds.inl",
              "hn::And(maker.needs_double, bounds.fails)", "hn::AndNot(maker.needs_double, bounds.fails)",
