@@ -47,6 +47,7 @@ HWY_INLINE PointPacket* next_packet(const PointJob& points, int32_t tile) {
   if (HWY_UNLIKELY(bin.next == bin.limit)) points.open_run(points.owner, uint32_t(tile));
   auto* packet = reinterpret_cast<PointPacket*>(bin.next);
   bin.next += sizeof *packet;
+  __builtin_prefetch(bin.next + 64, 1);  // many other tiles' come between
   return packet;
 }
 
