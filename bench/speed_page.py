@@ -33,6 +33,11 @@ def milliseconds(value):
     return f"{value:.3g}" if value < 100 else f"{value:.0f}"
 
 
+def threads_cell(threads):
+    far = threads.get("core_distance_ns", 0) > 120  # no cache in common; with one some 60
+    return f"{threads['speed_up']:.2f}" + (" far" if far else "")
+
+
 def workloads_table(result):
     rows = []
     for row in result["workloads"]:
@@ -43,7 +48,7 @@ def workloads_table(result):
                      f"{milliseconds(theirs['median'])} ± {100 * theirs['spread']:.0f} %",
                      f"**{row['ratio']:.1f}**" if row["ratio"] >= row["target"] else f"{row['ratio']:.1f}",
                      f"{row['target']:g}",
-                     f"{threads['speed_up']:.2f}" if threads else "",
+                     threads_cell(threads) if threads else "",
                      f"{100 * row['limit_ms'] / ours['median']:.0f} %" if "limit_ms" in row else ""])
     met = sum(row["ratio"] >= row["target"] for row in result["workloads"])
     return [f"{result['ours']['renderer']} and {result['theirs']['renderer']} on {result['processor']}; {met} of "

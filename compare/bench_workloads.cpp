@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "compare/bench_limits.h"
+#include "compare/core_distance.h"
 #include "compare/processor.h"
 
 namespace halfspace::compare {
@@ -82,8 +83,7 @@ class Bench {
     row.target = options_.against ? 1 / (1 + options_.slower_percent / 100) : workload.target;
     if (limits_ && !workload.work.empty()) row.limit_ms = milliseconds(*limits_, workload.work);
     compare_pictures(workload, *ours, *theirs, row);
-    if (options_.threads && !options_.against && row.ours.wall_ms.median > kThreadsFromMs)
-      measure_threads(row);
+    if (wants_threads(row)) measure_threads(row);
     progress_(row.name + (row.draft ? " at draft: " : ": ") + short_text(row));
     result_.rows.push_back(std::move(row));
   }
@@ -119,7 +119,9 @@ class Bench {
     const auto with_two = start_halfspace(HalfspaceSetting{options_.library, 2, row.draft}, two);
     with_one->order("open " + row.name);
     with_two->order("open " + row.name);
+    const double before = core_distance(two[0], two[1]);
     const Turns times = take_turns(*with_one, *with_two, options_.rounds);
+    row.core_distance_ns = std::max(before, core_distance(two[0], two[1]));
     row.one_thread = times.first;
     row.two_threads = times.second;
     row.speed_up = row.one_thread.wall_ms.median / row.two_threads.wall_ms.median;

@@ -35,6 +35,7 @@ struct WorkloadRow {
   bool same_picture = true;           // within the limit, or to the bit against another build
   FrameTime one_thread, two_threads;  // on two cores; not measured when the count is 0
   double speed_up = 0;                // wall time of one / of two
+  double core_distance_ns = 0;        // of those cores, before and after: the longer
   std::optional<double> limit_ms;     // what this core could do at best
 
   bool fast() const { return ratio >= target; }
