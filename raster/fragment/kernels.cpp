@@ -226,39 +226,43 @@ void RunTileBlocks(BlockContext& c) {
   RunBlocks<std::conditional_t<kKills, TileLanes<false>, FullTileLanes<false>>, ids...>(c);
 }
 
-// A part of a list on whole blocks of a row of a tile; slots count from the row's first pixel. L may be full lanes where
-// all of the block is live and stays so; what was worked out once is for any.
+// A part of a list on a group of a row of a tile's whole blocks; slots count from the row's first pixel. Returns what is
+// left of the live ones. L may be full lanes where all are live; what was worked out once is for any.
 template <class L, class Worked, StageId... ids>
-HWY_INLINE void RunRowGroups(BlockContext& c, const OnceAll<Worked, ids...>& once, int block) {
-  constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...), kFull = IsFull<L>;
-  const int first = block * kBlockPixels, slots = block % kRowBlocks * kBlockPixels;
-  const uint64_t live = c.row_live[block % kRowBlocks];
-  uint64_t left = 0;
-#pragma GCC unroll 4
-  for (int p = 0; p < kBlockPixels; p += kLanes) {
-    const uint64_t group = kFull ? kGroupBits : live >> p & kGroupBits;
-    if (!kFull && group == 0) continue;
-    Lanes v;
-    v.live = MaskFromBits(group);
-    LoadSlots<TakenSlots<ids...>()>(c, slots + p, v);
-    (Step<L, Worked, ids>(c, once, first + p, v) && ...);
-    StoreSlots<LeftSlots<ids...>()>(v, slots + p, c);
-    if constexpr (kKills) left |= uint64_t{MaskBits(v.live)} << p;
-  }
-  if constexpr (kKills) {
-    c.row_live[block % kRowBlocks] = left;
-    if (left == 0) c.blocks &= ~(uint64_t{1} << block);
-  }
+HWY_INLINE uint64_t RunRowGroup(BlockContext& c, const OnceAll<Worked, ids...>& once, int i, uint64_t live) {
+  const int slot = i % (kRowBlocks * kBlockPixels);
+  Lanes v;
+  v.live = MaskFromBits(live);
+  LoadSlots<TakenSlots<ids...>()>(c, slot, v);
+  (Step<L, Worked, ids>(c, once, i, v) && ...);
+  StoreSlots<LeftSlots<ids...>()>(v, slot, c);
+  if constexpr ((BodyOf<ids>::Type::kKills || ...)) return MaskBits(v.live);
+  return live;
 }
 
 // Where pixels are stored, a block that is live all over has code of its own.
 template <class L, StageId... ids>
 HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
   constexpr bool kKills = (BodyOf<ids>::Type::kKills || ...);
+  const int first = block * kBlockPixels;
+  const uint64_t live = c.row_live[block % kRowBlocks];
   if constexpr ((StoresPixels<typename BodyOf<ids>::Type> || ...) && !kKills) {
-    if (c.row_live[block % kRowBlocks] == ~uint64_t{0}) return RunRowGroups<FullTileLanes<false>>(c, once, block);
+    if (live == ~uint64_t{0}) {
+#pragma GCC unroll 4
+      for (int p = 0; p < kBlockPixels; p += kLanes)
+        RunRowGroup<FullTileLanes<false>>(c, once, first + p, kGroupBits);
+      return;
+    }
   }
-  RunRowGroups<L>(c, once, block);
+  uint64_t left = 0;
+  for (int p = 0; p < kBlockPixels; p += kLanes) {
+    const uint64_t group = live >> p & kGroupBits;
+    if (group != 0) left |= RunRowGroup<L>(c, once, first + p, group) << p;
+  }
+  if constexpr (kKills) {
+    c.row_live[block % kRowBlocks] = left;
+    if (left == 0) c.blocks &= ~(uint64_t{1} << block);
+  }
 }
 
 // Stages that work out something for each block say so.

@@ -129,5 +129,3 @@ struct FullTileLanes : TileLanes<kLevelAlpha> {
     FullLanes::StoreRgba8(c, i, packed, live);
   }
 };
-template <bool kLevelAlpha>
-inline constexpr bool IsFull<FullTileLanes<kLevelAlpha>> = true;
