@@ -240,6 +240,17 @@ HWY_INLINE uint64_t RunRowGroup(BlockContext& c, const OnceAll<Worked, ids...>& 
   return live;
 }
 
+// Stages that have a way of their own through a block that is live all over say so; alone in a kernel they take it.
+template <class Body>
+concept RunsBlocks = requires { Body::kRunsBlocks; } && Body::kRunsBlocks;
+
+template <StageId id>
+HWY_INLINE void RunWholeBlock(BlockContext& c, int slots) {
+  BodyOf<id>::Type::RunBlock(
+      c, slots, [&](int i, Lanes& v) HWY_ATTR { LoadSlots<TakenSlots<id>()>(c, i, v); },
+      [&](const Lanes& v, int i) HWY_ATTR { StoreSlots<LeftSlots<id>()>(v, i, c); });
+}
+
 // Where pixels are stored, a block that is live all over has code of its own.
 template <class L, StageId... ids>
 HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
@@ -253,6 +264,9 @@ HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int
         RunRowGroup<FullTileLanes<false>>(c, once, first + p, kGroupBits);
       return;
     }
+  }
+  if constexpr (sizeof...(ids) == 1 && (RunsBlocks<typename BodyOf<ids>::Type> && ...)) {
+    if (live == ~uint64_t{0}) return (RunWholeBlock<ids>(c, first % (kRowBlocks * kBlockPixels)), ...);
   }
   uint64_t left = 0;
   for (int p = 0; p < kBlockPixels; p += kLanes) {

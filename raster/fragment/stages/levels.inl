@@ -92,10 +92,14 @@ struct SampleLevels {
     const int first = i % kBlockPixels;
     const auto& group = once.groups[first / kLanes];
     if (group.level == nullptr) return LookEach(*c.params, v);
-    LookPlaced(group.level[0], once, 0, first, v);
-    if (!group.blends) return;
+    const LevelRef* const level = group.level;
+    const Footprints texels = FetchPlaced(level[0], once, 0, first);
+    if (!group.blends) return LookPlaced(level[0], texels, once, 0, first, v, NothingMeanwhile());
+    Footprints others;
+    LookPlaced(level[0], texels, once, 0, first, v,
+               [&]() HWY_ATTR { others = FetchPlaced(level[1], once, 1, first); });
     Lanes next = v;
-    LookPlaced(group.level[1], once, 1, first, next);
+    LookPlaced(level[1], others, once, 1, first, next, NothingMeanwhile());
     Blend(next, v);
   }
 
@@ -104,9 +108,15 @@ struct SampleLevels {
     return kBytes ? FindPlaceDraft(level, sampler.wrap_s, sampler.wrap_t, s, t)
                   : FindPlace(level, sampler.wrap_s, sampler.wrap_t, s, t);
   }
-  static HWY_INLINE void LookPlace(const LevelRef& level, const LaneOffsets& offsets, VF wu, VF wv, Lanes& v) {
-    if constexpr (kBytes) LookLinearDraft(level, offsets, wu, wv, v);
-    else LookLinear(level, offsets, wu, wv, v);
+  template <class FetchNext>
+  static HWY_INLINE void LookPlace(const LevelRef& level, const Footprints& texels, VF wu, VF wv, Lanes& v,
+                                   FetchNext fetch_next) {
+    if constexpr (kBytes) {
+      BilinearDraft(texels, wu, wv, v);
+      fetch_next();
+    } else {
+      Bilinear(texels, wu, wv, level.opaque, v, fetch_next);
+    }
   }
   static HWY_INLINE int LevelOf(int key) { return key < 0 ? 0 : key; }
   static HWY_INLINE bool IsLinear(const FragmentParams& p, int key) {
@@ -114,9 +124,14 @@ struct SampleLevels {
   }
 
   template <class Places>
-  static HWY_INLINE void LookPlaced(const LevelRef& level, const Places& places, int n, int i, Lanes& v) {
+  static HWY_INLINE Footprints FetchPlaced(const LevelRef& level, const Places& places, int n, int i) {
+    return Fetch(level, LaneOffsets(places.offset[n] + i));
+  }
+  template <class Places, class FetchNext>
+  static HWY_INLINE void LookPlaced(const LevelRef& level, const Footprints& texels, const Places& places, int n, int i,
+                                    Lanes& v, FetchNext fetch_next) {
     const DF d;
-    LookPlace(level, LaneOffsets(places.offset[n] + i), hn::Load(d, places.wu[n] + i), hn::Load(d, places.wv[n] + i), v);
+    LookPlace(level, texels, hn::Load(d, places.wu[n] + i), hn::Load(d, places.wv[n] + i), v, fetch_next);
   }
 
   static HWY_INLINE void Blend(const Lanes& next, Lanes& v) {
@@ -156,6 +171,6 @@ struct SampleLevels {
       return UnpackTexels(LoadTexels(offsets, level.texels), v);
     }
     const Place place = PlaceOn(level, p.sampler, v.slot[kS], v.slot[kT]);
-    LookPlace(level, LaneOffsets(place.offset), place.wu, place.wv, v);
+    LookPlace(level, Fetch(level, LaneOffsets(place.offset)), place.wu, place.wv, v, NothingMeanwhile());
   }
 };

@@ -189,18 +189,26 @@ HWY_INLINE void FilterChannels(const Footprints& texels, VF wu, VF wv, VF* out) 
   for (int k = 0; k < kCount; ++k) out[k] = hn::Add(low[2 * k], rise[k]);
 }
 
-// Bilinear lookups for all lanes, in float, counting offsets from `low` and `high` in the two rows. `opaque`: every
-// alpha is 255, and interpolating 255 gives 255.
-HWY_INLINE void Bilinear(const LaneOffsets& offsets, const uint32_t* low, const uint32_t* high, VF wu, VF wv, bool opaque,
-                         Lanes& v) {
-  const Footprints texels = LoadFootprints(offsets, low, high);
+// A lookup's arithmetic and the next one's loads take turns, since the processor looks ahead for little more than one
+// lookup. Only where registers hold what two have under way.
+inline constexpr bool kFetchesAhead = HWY_TARGET == HWY_AVX3;
+struct NothingMeanwhile {
+  HWY_INLINE void operator()() const {}
+};
+
+// Bilinear lookups for all lanes, in float. `opaque`: every alpha is 255, and interpolating 255 gives 255. `fetch_next`
+// loads texels for the lookup that comes next.
+template <class FetchNext>
+HWY_INLINE void Bilinear(const Footprints& texels, VF wu, VF wv, bool opaque, Lanes& v, FetchNext fetch_next) {
   FilterChannels<0, 2>(texels, wu, wv, &v.slot[kTexR]);
+  if constexpr (kFetchesAhead) fetch_next();
   if (opaque) {
     FilterChannels<2, 1>(texels, wu, wv, &v.slot[kTexB]);
     v.slot[kTexA] = hn::Set(DF(), 255.0f);
   } else {
     FilterChannels<2, 2>(texels, wu, wv, &v.slot[kTexB]);
   }
+  if constexpr (!kFetchesAhead) fetch_next();
 }
 
 HWY_INLINE VI TexelOffset(const LevelRef& level, VI x, VI y) {
@@ -331,8 +339,8 @@ struct RepeatedLevel {
   }
 };
 
-HWY_INLINE void LookLinear(const LevelRef& level, const LaneOffsets& offsets, VF wu, VF wv, Lanes& v) {
-  Bilinear(offsets, level.texels, level.texels + level.pitch, wu, wv, level.opaque, v);
+HWY_INLINE Footprints Fetch(const LevelRef& level, const LaneOffsets& offsets) {
+  return LoadFootprints(offsets, level.texels, level.texels + level.pitch);
 }
 
 // Where a bilinear lookup on level 0 reads: slots s, t become the weights, and the offset of the lower left texel joins
@@ -372,13 +380,32 @@ struct FootprintRepeat {
 template <bool kOpaque>
 struct SampleLinear {
   static constexpr bool kKills = false, kPacks = true, kInTiles = true, kTakesFromMemory = true;
+  static constexpr bool kRunsBlocks = kFetchesAhead;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    const LevelRef& level = c.params->levels[0];
-    Bilinear(LaneOffsets(SlotAt(c, kOffset, i)), level.texels, level.texels + level.pitch, v.slot[kS], v.slot[kT],
-             kOpaque, v);
+    Bilinear(FetchAt(c, i), v.slot[kS], v.slot[kT], kOpaque, v, NothingMeanwhile());
+  }
+  // A block that is live all over: while a group's texels are filtered, the next one's are fetched.
+  template <class Load, class Store>
+  static HWY_INLINE void RunBlock(const BlockContext& c, int first, Load load, Store store) {
+    Footprints texels = FetchAt(c, first);
+    const int last = first + kBlockPixels - kLanes;
+    for (int i = first; i <= last; i += kLanes) {
+      Lanes v;
+      load(i, v);
+      Footprints next;
+      Bilinear(texels, v.slot[kS], v.slot[kT], kOpaque, v,
+               [&]() HWY_ATTR { next = FetchAt(c, i < last ? i + kLanes : last); });  // a branch would cost more
+      texels = next;
+      store(v, i);
+    }
+  }
+
+ private:
+  static HWY_INLINE Footprints FetchAt(const BlockContext& c, int i) {
+    return Fetch(c.params->levels[0], LaneOffsets(SlotAt(c, kOffset, i)));
   }
 };
 
@@ -422,11 +449,10 @@ HWY_INLINE VU MixBytes(VU a, VU b, VU weight) {
 #endif
 }
 
-HWY_INLINE void LookLinearDraft(const LevelRef& level, const LaneOffsets& offsets, VF wu, VF wv, Lanes& v) {
+HWY_INLINE void BilinearDraft(const Footprints& texels, VF wu, VF wv, Lanes& v) {
   const DF d;
   const DI di;
   const DU du;
-  const Footprints texels = LoadFootprints(offsets, level.texels, level.texels + level.pitch);
   const VU x = hn::BitCast(du, wu), y = hn::BitCast(du, wv);
   const auto mix = [](const WidePixel& a, const WidePixel& b, VU weight) HWY_ATTR {
     return WidePixel{MixBytes(a.rb, b.rb, weight), MixBytes(a.ga, b.ga, weight)};
@@ -489,6 +515,6 @@ struct SampleLinearDraft {
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    LookLinearDraft(c.params->levels[0], LaneOffsets(SlotAt(c, kOffset, i)), v.slot[kS], v.slot[kT], v);
+    BilinearDraft(Fetch(c.params->levels[0], LaneOffsets(SlotAt(c, kOffset, i))), v.slot[kS], v.slot[kT], v);
   }
 };
