@@ -88,10 +88,9 @@ void clear_floats(const TileClear& at, int plane, const ColorMask& mask, const C
   });
 }
 
-void clear_tile_color(const TileClear& at, int plane, const ClearCommand& command) {
+void clear_tile_color(const TileClear& at, int plane, const ClearCommand& command, uint32_t packed) {
   const bool bytes = at.fb.format == ColorFormat::rgba8;
   const Color value = bytes ? clamped(command.color_value) : command.color_value;
-  const uint32_t packed = pack_rgba8(command.color_value);
   const bool masked = !command.color_mask.all();
   if (at.to_settle(masked) != 0) at.fb.settle_color(at.tile, at.to_settle(masked), plane);
   if (at.by_pixel(masked) != 0) {
@@ -155,9 +154,10 @@ void clear_tile_accum(const TileClear& at, const int16_t value[4]) {
   at.state().accum_is_clear |= at.cut.whole;
 }
 
-void clear_tile(const TileClear& at, const ClearCommand& command, uint8_t targets) {
+// `packed`: the colour in bytes.
+void clear_tile(const TileClear& at, const ClearCommand& command, uint8_t targets, uint32_t packed) {
   for (const ColorPlane plane : {kBackPlane, kFrontPlane})
-    if ((targets & plane) != 0) clear_tile_color(at, plane_index(plane), command);
+    if ((targets & plane) != 0) clear_tile_color(at, plane_index(plane), command, packed);
   if (command.depth && command.depth_write) clear_tile_depth(at, depth_to_24_bits(command.depth_value));
   if (command.stencil && command.stencil_mask != 0)
     clear_tile_stencil(at, command.stencil_value, command.stencil_mask);
@@ -188,6 +188,7 @@ void clear(Framebuffer::Impl& fb, const ClearCommand& command) {
     if (command.stencil && command.stencil_mask != 0) fb.need_stencil();
     if (command.accum) fb.need_accum();
   }
+  const uint32_t packed = pack_rgba8(command.color_value);
   for (int ty = rect.y0 / kTileSize; ty * kTileSize < rect.y1; ++ty) {
     for (int tx = rect.x0 / kTileSize; tx * kTileSize < rect.x1; ++tx) {
       const size_t tile = static_cast<size_t>(ty) * static_cast<size_t>(fb.tiles_x) + static_cast<size_t>(tx);
@@ -196,7 +197,7 @@ void clear(Framebuffer::Impl& fb, const ClearCommand& command) {
       TileCut cut;
       if (intersect(bounds, rect) == bounds) cut.whole = ~uint64_t{0};
       else cut = cut_tile(rect, bounds);
-      clear_tile({fb, tile, cut, rect}, command, targets);
+      clear_tile({fb, tile, cut, rect}, command, targets, packed);
     }
   }
 }
