@@ -226,8 +226,8 @@ void RunTileBlocks(BlockContext& c) {
   RunBlocks<std::conditional_t<kKills, TileLanes<false>, FullTileLanes<false>>, ids...>(c);
 }
 
-// A part of a list on a group of a row of a tile's whole blocks; slots count from the row's first pixel. Returns what is
-// left of the live ones. L may be full lanes where all are live; what was worked out once is for any.
+// A part of a list on a group of a tile's row of whole blocks; slots count from the row's first pixel. Returns
+// which lanes are left. L may be full lanes where all are live; what was worked out once is for any.
 template <class L, class Worked, StageId... ids>
 HWY_INLINE uint64_t RunRowGroup(BlockContext& c, const OnceAll<Worked, ids...>& once, int i, uint64_t live) {
   const int slot = i % (kRowBlocks * kBlockPixels);
@@ -240,7 +240,7 @@ HWY_INLINE uint64_t RunRowGroup(BlockContext& c, const OnceAll<Worked, ids...>& 
   return live;
 }
 
-// Stages that have a way of their own through a block that is live all over say so; alone in a kernel they take it.
+// Stages with a way of their own through a block that is live all over say so; alone in a kernel they take it.
 template <class Body>
 concept RunsBlocks = requires { Body::kRunsBlocks; } && Body::kRunsBlocks;
 

@@ -189,15 +189,15 @@ HWY_INLINE void FilterChannels(const Footprints& texels, VF wu, VF wv, VF* out) 
   for (int k = 0; k < kCount; ++k) out[k] = hn::Add(low[2 * k], rise[k]);
 }
 
-// A lookup's arithmetic and the next one's loads take turns, since the processor looks ahead for little more than one
-// lookup. Only where registers hold what two have under way.
+// A lookup's arithmetic and the next one's loads take turns, since the processor looks ahead for little more than
+// one lookup. Only where registers hold what two have under way.
 inline constexpr bool kFetchesAhead = HWY_TARGET == HWY_AVX3;
 struct NothingMeanwhile {
   HWY_INLINE void operator()() const {}
 };
 
-// Bilinear lookups for all lanes, in float. `opaque`: every alpha is 255, and interpolating 255 gives 255. `fetch_next`
-// loads texels for the lookup that comes next.
+// Bilinear lookups for all lanes, in float. `opaque`: every alpha is 255, and interpolating 255 gives 255.
+// `fetch_next` loads texels for the lookup that comes next.
 template <class FetchNext>
 HWY_INLINE void Bilinear(const Footprints& texels, VF wu, VF wv, bool opaque, Lanes& v, FetchNext fetch_next) {
   FilterChannels<0, 2>(texels, wu, wv, &v.slot[kTexR]);
