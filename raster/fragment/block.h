@@ -106,11 +106,12 @@ struct TileGroup {
   unsigned count() const { return bits >= 1u << kLiveShift ? 1 : 0; }
 };
 
-// Products of the depth planes of a batch's primitives along the columns and the rows of a tile, where groups of theirs
-// lie. A window of columns or rows may begin with any in the tile and reach beyond.
-struct GroupDepths {
+// Of a batch's primitives, for the columns and the rows of a tile where groups of theirs lie: where from the anchor,
+// and the products of the depth planes. A window of columns or rows may begin with any in the tile and reach beyond.
+struct GroupTables {
   static constexpr int kColumns = 32, kRows = 16;  // of a window
   alignas(64) double across[kSetupLanes][2 * kTileSize], row[kSetupLanes][2 * kTileSize];
+  alignas(64) float dx[kSetupLanes][2 * kTileSize], dy[kSetupLanes][2 * kTileSize];
 };
 
 // Blocks side by side that a list of kernels takes in turn, each kernel all of them: what it works out ahead serves all.
@@ -157,7 +158,7 @@ struct alignas(64) BlockContext {
   int group_count;
   TileGroup group;          // that at hand
   unsigned group_lanes;     // bits of the lanes that the groups' primitives have in the batch
-  const GroupDepths* group_depths;  // where groups may be of several primitives
+  const GroupTables* group_tables;  // where groups may be of several primitives
   StageMeter* meter = nullptr;  // null: nothing is counted
 };
 

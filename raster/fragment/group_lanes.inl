@@ -10,14 +10,26 @@ inline constexpr bool kGroupsOfMany = true;
 
 // 0, 1, 2 ...
 struct TileSteps {
-  alignas(64) float single[kTileSize];
   alignas(64) double wide[kTileSize];
 };
 inline constexpr TileSteps kTileSteps = [] {
   TileSteps steps{};
-  for (int i = 0; i < kTileSize; ++i) steps.single[i] = static_cast<float>(i), steps.wide[i] = i;
+  for (int i = 0; i < kTileSize; ++i) steps.wide[i] = i;
   return steps;
 }();
+
+// Where in the tables (raster/tile/group_walk.inl fills them) a group's columns and rows are: one instruction
+// each, which closes up bits of the group. Bits that are 0 go along for the columns of a block, for the rows of a
+// pair, and since a lane has twice as many values as the tile is wide.
+struct GroupPlace {
+  static constexpr unsigned kLaneBits = 7u << TileGroup::kLaneShift | 1u << (TileGroup::kLaneShift - 1);
+  static constexpr unsigned kColumnBits = 7 << 5 | 7, kRowBits = 7 << 8 | 7 << 2;
+  static_assert(kBlockSize == 8 && kTileSize == 64 && kLanes == 16 && TileGroup::kIndexShift == 3);
+  unsigned column, row;
+  HWY_INLINE explicit GroupPlace(TileGroup group)
+      : column(_pext_u32(group.bits, kColumnBits | kLaneBits)),
+        row(_pext_u32(group.bits, kRowBits | kLaneBits)) {}
+};
 
 // A plane of all the batch's primitives. Planes beside it are so and so far from there.
 struct GroupPlaneTable {
@@ -33,27 +45,24 @@ struct GroupPlaneTable {
 
 struct GroupPlane {
   const BlockContext& c;
-  const SetupBatch& s;
   GroupPlaneTable table;
   HWY_INLINE GroupPlane(const BlockContext& context, int plane)
       : GroupPlane(context, plane, GroupPlaneTable(*context.setup, plane)) {}
   HWY_INLINE GroupPlane(const BlockContext& context, int, const GroupPlaneTable& at)
-      : c(context), s(*context.setup), table(at) {}
-  HWY_INLINE VF At(int i) const {
+      : c(context), table(at) {}
+  HWY_INLINE VF At(int) const {
     const auto lane = static_cast<size_t>(c.group.lane());
-    const __m512 columns = _mm512_castpd_ps(
-        _mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_load_ps(kTileSteps.single + ColumnInTile(i)))));
-    const __m512 rows =
-        _mm512_add_ps(_mm512_load_ps(kTwoRows<float>.row), _mm512_set1_ps(kTileSteps.single[RowInTile(i)]));
-    const __m512 dx = _mm512_add_ps(columns, _mm512_set1_ps(s.anchor_x_f[lane]));
-    const __m512 dy = _mm512_add_ps(rows, _mm512_set1_ps(s.anchor_y_f[lane]));
+    const GroupPlace place(c.group);
+    const __m256d columns = _mm256_castps_pd(_mm256_load_ps(c.group_tables->dx[0] + place.column));
+    const __m512 dx = _mm512_castpd_ps(_mm512_broadcast_f64x4(columns));
+    const __m512 dy = _mm512_add_ps(_mm512_load_ps(kTwoRows<float>.row),
+                                    _mm512_set1_ps(c.group_tables->dy[0][place.row]));
     const __m512 up = _mm512_mul_ps(dy, _mm512_set1_ps((*table.dfdy)[lane]));
     const __m512 across = _mm512_mul_ps(dx, _mm512_set1_ps((*table.dfdx)[lane]));
     return VF{_mm512_add_ps(_mm512_add_ps(up, _mm512_set1_ps((*table.f0)[lane])), across)};
   }
 };
 
-// Depth comes from products that the walk has left (FillColumnDepths, FillRowDepths in raster/tile/group_walk.inl).
 struct GroupPlaneDouble {
   const BlockContext& c;
   int plane;
@@ -75,16 +84,10 @@ struct GroupPlaneDouble {
   }
 
  private:
-  // Where in the tables is one instruction each, which closes up bits of a group. Bits that are 0 go along for the
-  // columns of a block, for the rows of a pair, and since a lane has twice as many values as the tile is wide.
-  static constexpr unsigned kLaneBits = 7u << TileGroup::kLaneShift | 1u << (TileGroup::kLaneShift - 1);
-  static constexpr unsigned kColumnBits = 7 << 5 | 7, kRowBits = 7 << 8 | 7 << 2;
-  static_assert(kBlockSize == 8 && kTileSize == 64 && kLanes == 16 && TileGroup::kIndexShift == 3);
   HWY_INLINE VD Depth() const {
-    const unsigned bits = c.group.bits;
-    const double* column = c.group_depths->across[0] + _pext_u32(bits, kColumnBits | kLaneBits);
-    const double* row = c.group_depths->row[0] + _pext_u32(bits, kRowBits | kLaneBits);
-    const __m512d across = _mm512_load_pd(column);
+    const GroupPlace place(c.group);
+    const __m512d across = _mm512_load_pd(c.group_tables->across[0] + place.column);
+    const double* row = c.group_tables->row[0] + place.row;
     VD v;
     for (int p = 0; p < 2; ++p) v.part[p] = hn::Vec<DD>{_mm512_add_pd(_mm512_set1_pd(row[p]), across)};
     return v;

@@ -4,7 +4,7 @@
 // the edges it enters by to the leftmost of those it leaves by; a window's sixteen rows are found at once.
 // For AVX-512 only, where a list may hold groups of several primitives; others walk each triangle alone.
 
-inline constexpr int kSpanWidth = GroupDepths::kColumns, kSpanRows = GroupDepths::kRows;
+inline constexpr int kSpanWidth = GroupTables::kColumns, kSpanRows = GroupTables::kRows;
 
 #if HWY_TARGET == HWY_AVX3
 // The most an edge's value may gain by a pixel: 64 pixels of edge in steps of 1/256. Values in a window are
@@ -180,7 +180,8 @@ class GroupBatch {
     blocks_ |= spans_.blocks[lane];
     const bool depth = stages.groups_depth != nullptr;
     for (int x = 0;;) {
-      if (depth) FillColumnDepths(t_.setup, lane, spans_.left[lane] + x, spans_.dx[lane], t_.group_depths);
+      FillColumnPlaces(lane, spans_.left[lane] + x, spans_.dx[lane], t_.group_tables);
+      if (depth) FillColumnDepths(t_.setup, lane, spans_.left[lane] + x, spans_.dx[lane], t_.group_tables);
       const int down = AddColumns(lane, x, depth && x == 0);
       x += kSpanWidth;
       if (x > spans_.width[lane]) return true;
@@ -199,7 +200,8 @@ class GroupBatch {
   // is not there yet.
   HWY_INLINE int AddColumns(int lane, int x, bool depth) {
     for (int y = 0;;) {
-      if (depth) FillRowDepths(t_.setup, lane, spans_.bottom[lane] + y, spans_.dy[lane], t_.group_depths);
+      if (x == 0) FillRowPlaces(lane, spans_.bottom[lane] + y, spans_.dy[lane], t_.group_tables);
+      if (depth) FillRowDepths(t_.setup, lane, spans_.bottom[lane] + y, spans_.dy[lane], t_.group_tables);
       length_ = _mm512_add_epi32(length_, AddWindow(spans_, lane, x, y, list_));
       y += kSpanRows;
       if (y > spans_.height[lane]) return y / kSpanRows - 1;

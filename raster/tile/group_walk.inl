@@ -120,16 +120,30 @@ HWY_INLINE __m512d EightFrom(double k) {
   return _mm512_setr_pd(k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7);
 }
 
-// What groups of the primitive take their depth from: of a window's columns from x of the tile on, x at a block,
-// and of its rows from y on. dx, dy: where that is from the anchor; sums of these are exact.
-HWY_INLINE void FillColumnDepths(const SetupBatch& s, int lane, int x, double dx, GroupDepths& out) {
+HWY_INLINE __m512 SixteenFrom(float k) {
+  return _mm512_setr_ps(k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7, k + 8, k + 9, k + 10, k + 11, k + 12,
+                        k + 13, k + 14, k + 15);
+}
+
+// What groups of the primitive are interpolated from: for a window's columns from x of the tile on, x at a block,
+// and for its rows from y on. dx, dy: where that is from the anchor; sums of these are exact.
+HWY_INLINE void FillColumnPlaces(int lane, int x, double dx, GroupTables& out) {
+  const __m512 first = _mm512_set1_ps(static_cast<float>(dx));
+  for (int k = 0; k < GroupTables::kColumns; k += 16)
+    _mm512_storeu_ps(out.dx[lane] + x + k, _mm512_add_ps(SixteenFrom(static_cast<float>(k)), first));
+}
+HWY_INLINE void FillRowPlaces(int lane, int y, double dy, GroupTables& out) {
+  static_assert(GroupTables::kRows == 16);
+  _mm512_storeu_ps(out.dy[lane] + y, _mm512_add_ps(SixteenFrom(0), _mm512_set1_ps(static_cast<float>(dy))));
+}
+HWY_INLINE void FillColumnDepths(const SetupBatch& s, int lane, int x, double dx, GroupTables& out) {
   const __m512d first = _mm512_set1_pd(dx), slope = _mm512_set1_pd(s.dfdx[0][lane]);
-  for (int k = 0; k < GroupDepths::kColumns; k += 8)
+  for (int k = 0; k < GroupTables::kColumns; k += 8)
     _mm512_store_pd(out.across[lane] + x + k, _mm512_mul_pd(_mm512_add_pd(EightFrom(k), first), slope));
 }
-HWY_INLINE void FillRowDepths(const SetupBatch& s, int lane, int y, double dy, GroupDepths& out) {
+HWY_INLINE void FillRowDepths(const SetupBatch& s, int lane, int y, double dy, GroupTables& out) {
   const __m512d first = _mm512_set1_pd(dy);
-  for (int k = 0; k < GroupDepths::kRows; k += 8) {
+  for (int k = 0; k < GroupTables::kRows; k += 8) {
     const __m512d up = _mm512_mul_pd(_mm512_add_pd(EightFrom(k), first), _mm512_set1_pd(s.dfdy[0][lane]));
     _mm512_storeu_pd(out.row[lane] + y + k, _mm512_add_pd(up, _mm512_set1_pd(s.f0[0][lane])));
   }
@@ -285,10 +299,14 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
   }
   if (touched == 0) return;
 #if HWY_TARGET == HWY_AVX3
-  for (int x = 0; x < kTileSize; x += GroupDepths::kColumns)
-    FillColumnDepths(s, lane, x, s.anchor_x[lane] + x, t.group_depths);
-  for (int y = 0; y < kTileSize; y += GroupDepths::kRows)
-    FillRowDepths(s, lane, y, s.anchor_y[lane] + y, t.group_depths);
+  for (int x = 0; x < kTileSize; x += GroupTables::kColumns) {
+    FillColumnPlaces(lane, x, s.anchor_x[lane] + x, t.group_tables);
+    FillColumnDepths(s, lane, x, s.anchor_x[lane] + x, t.group_tables);
+  }
+  for (int y = 0; y < kTileSize; y += GroupTables::kRows) {
+    FillRowPlaces(lane, y, s.anchor_y[lane] + y, t.group_tables);
+    FillRowDepths(s, lane, y, s.anchor_y[lane] + y, t.group_tables);
+  }
 #endif
   GroupList list(t.groups, lane);
   if (!t.masks_blocks) {

@@ -59,7 +59,7 @@ struct TileContext {
   Packer packer;
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
   ListedPixels listed;
-  GroupDepths group_depths;
+  GroupTables group_tables;
   TileGroup groups[kTilePixels / kBlockSize + 16];  // what a triangle covers, and room for a vector more
 };
 
@@ -494,7 +494,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.block.meter = statistics.meter;
   t.block.setup = &t.setup;
   t.block.planes = &t.planes;
-  t.block.group_depths = &t.group_depths;
+  t.block.group_tables = &t.group_tables;
   t.block.coverage = whole;
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
   FlushPacked(t);
