@@ -67,7 +67,9 @@ BenchRow lower_is_better(std::string what, std::string unit, const std::vector<d
   row.unit = std::move(unit);
   row.ours = summarize(ours);
   row.theirs = summarize(theirs);
-  row.ratio = row.theirs.median > 0 ? row.ours.median / row.theirs.median : 0;
+  const Summary ratio = paired_ratio(ours, theirs);
+  row.ratio = ratio.median;
+  row.ratio_spread = ratio.spread;
   row.target = target;
   row.good = row.ratio <= target;
   return row;
@@ -120,6 +122,7 @@ BenchRow memory_row(const BenchOptions& options, int scene, const Progress& prog
       progress);
   BenchRow row = lower_is_better(what, "MB", ours, theirs, kMemoryTargetMb);
   row.ratio = row.ours.highest;
+  row.ratio_spread = 0;
   row.good = row.ratio <= kMemoryTargetMb;
   row.remark = "MB at most";
   return row;
@@ -146,7 +149,9 @@ BenchRow thread_row(const BenchOptions& options, int scene, const Progress& prog
   }
   row.ours = summarize(two_threads.scene_ms[scene]);
   row.theirs = summarize(one_thread.scene_ms[scene]);
-  row.ratio = row.ours.median > 0 ? row.theirs.median / row.ours.median : 0;
+  const Summary speed_up = paired_ratio(one_thread.scene_ms[scene], two_threads.scene_ms[scene]);
+  row.ratio = speed_up.median;
+  row.ratio_spread = speed_up.spread;
   row.good = row.ratio >= kThreadsTarget;
   return row;
 }

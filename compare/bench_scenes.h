@@ -14,7 +14,7 @@ namespace halfspace::compare {
 
 struct BenchOptions {
   std::vector<int> scenes;  // empty: all eight
-  int pairs = 7;            // ours, theirs, ours, theirs, ...
+  int pairs = 11;           // ours, theirs, ours, theirs, ...
   int frames = 10;          // per process; their median is one value
   int width = 1024, height = 1024;
   int core = -1;  // the core both are pinned to; -1: the last one we may use
@@ -27,7 +27,8 @@ struct BenchRow {
   std::string what;
   Summary ours, theirs;  // for thread scaling: two threads, one thread
   std::string unit;      // "ms", "MB"
-  double ratio = 0;      // median of ours / median of theirs, or ours alone for memory; speed-up for threads
+  double ratio = 0;  // ours / theirs, the median of the pairs; or ours alone for memory, speed-up for threads
+  double ratio_spread = 0;
   double target = 0;
   bool higher_is_better = false;
   std::optional<bool> good;  // none when there is nothing to judge, as with one core

@@ -30,13 +30,10 @@ std::string text_row(const BenchRow& row) {
 nlohmann::json json_of(const std::vector<BenchRow>& rows) {
   nlohmann::json list = nlohmann::json::array();
   for (const BenchRow& row : rows) {
-    nlohmann::json entry{{"what", row.what},
-                         {"unit", row.unit},
-                         {"ours", to_json(row.ours)},
-                         {"theirs", to_json(row.theirs)},
-                         {"ratio", row.ratio},
-                         {"target", row.target},
-                         {"higher_is_better", row.higher_is_better},
+    nlohmann::json entry{{"what", row.what},          {"unit", row.unit},
+                         {"ours", to_json(row.ours)}, {"theirs", to_json(row.theirs)},
+                         {"ratio", row.ratio},        {"ratio_spread", row.ratio_spread},
+                         {"target", row.target},      {"higher_is_better", row.higher_is_better},
                          {"remark", row.remark}};
     entry["good"] = row.good ? nlohmann::json(*row.good) : nlohmann::json(nullptr);
     list.push_back(entry);
@@ -57,7 +54,10 @@ std::string to_text(const BenchResult& result) {
   for (const BenchRow& row : result.scenes) text += text_row(row);
   text += "\n" + heading("besides", "ours", "other");
   for (const BenchRow& row : result.others) text += text_row(row);
-  return text + "\n+- is half the distance between the quartiles. Threads: two beside one, both ours.\n";
+  return text +
+         "\n+- is half the distance between the quartiles. ratio: the median of the pairs. Threads: two "
+         "beside "
+         "one, both ours.\n";
 }
 
 nlohmann::json to_json(const BenchResult& result) {

@@ -79,7 +79,8 @@ class Bench {
     const Turns times = take_turns(*ours, *theirs, options_.rounds);
     row.ours = times.first;
     row.theirs = times.second;
-    row.ratio = row.ours.cpu_ms.median > 0 ? row.theirs.cpu_ms.median / row.ours.cpu_ms.median : 0;
+    row.ratio = times.cpu_ratio.median;
+    row.ratio_spread = times.cpu_ratio.spread;
     row.target = options_.against ? 1 / (1 + options_.slower_percent / 100) : workload.target;
     if (limits_ && !workload.work.empty()) row.limit_ms = milliseconds(*limits_, workload.work);
     compare_pictures(workload, *ours, *theirs, row);
@@ -120,11 +121,11 @@ class Bench {
     with_one->order("open " + row.name);
     with_two->order("open " + row.name);
     const double before = core_distance(two[0], two[1]);
-    const Turns times = take_turns(*with_one, *with_two, options_.rounds);
+    const Turns times = take_turns(*with_two, *with_one, options_.rounds);
     row.core_distance_ns = std::max(before, core_distance(two[0], two[1]));
-    row.one_thread = times.first;
-    row.two_threads = times.second;
-    row.speed_up = row.one_thread.wall_ms.median / row.two_threads.wall_ms.median;
+    row.two_threads = times.first;
+    row.one_thread = times.second;
+    row.speed_up = times.wall_ratio.median;
   }
 
   Image picture(Contestant& contestant, const std::string& folder, const WorkloadRow& row) {

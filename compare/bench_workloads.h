@@ -14,7 +14,7 @@ namespace halfspace::compare {
 
 struct WorkloadOptions {
   std::vector<std::string> only;       // empty: all
-  int rounds = 7;                      // ours, theirs; theirs, ours; ...
+  int rounds = 15;                     // ours, theirs; theirs, ours; ...
   int core = -1;                       // the core both are pinned to; -1: the last one we may use
   bool threads = true;                 // two threads against one, too
   bool softpipe = false;               // Mesa's plain renderer instead of llvmpipe
@@ -29,12 +29,13 @@ struct WorkloadRow {
   std::string name, what;
   bool draft = false;  // HALFSPACE_ACCURACY=draft
   FrameTime ours, theirs;
-  double ratio = 0;  // their process time / ours, medians
+  double ratio = 0;  // their process time / ours, the median of neighbours
+  double ratio_spread = 0;
   double target = 0;
   std::optional<Difference> pictures;
   bool same_picture = true;           // within the limit, or to the bit against another build
   FrameTime one_thread, two_threads;  // on two cores; not measured when the count is 0
-  double speed_up = 0;                // wall time of one / of two
+  double speed_up = 0;                // wall time of one / of two, the median of neighbours
   double core_distance_ns = 0;        // of those cores, before and after: the longer
   std::optional<double> limit_ms;     // what this core could do at best
 

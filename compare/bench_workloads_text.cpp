@@ -69,6 +69,7 @@ nlohmann::json json_of(const WorkloadRow& row) {
                        {"ours", json_of(row.ours)},
                        {"theirs", json_of(row.theirs)},
                        {"ratio", row.ratio},
+                       {"ratio_spread", row.ratio_spread},
                        {"target", row.target},
                        {"same_picture", row.same_picture},
                        {"good", row.good()}};
@@ -93,9 +94,11 @@ std::string to_text(const WorkloadResult& result) {
   for (const WorkloadRow& row : result.rows) text += text_row(row);
   return text +
          "\nTimes are the process's CPU time of a frame, medians; +- is half the distance between the "
-         "quartiles. 2 threads:\nours against ours with one, wall time, on two cores so many nanoseconds "
-         "apart. limit: how near ours is to what\nthis core could do at best. picture: pixels further than "
-         "8 levels from theirs, and the mean distance in levels.\n";
+         "quartiles. x as fast:\nthe median of batches that followed each other. 2 threads: ours against "
+         "ours "
+         "with one, wall time, likewise, on two\ncores so many nanoseconds apart. limit: how near ours is to "
+         "what this core could do at best. picture: pixels further\nthan 8 levels from theirs, and the mean "
+         "distance in levels.\n";
 }
 
 nlohmann::json to_json(const WorkloadResult& result) {

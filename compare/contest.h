@@ -55,6 +55,7 @@ struct FrameTime {
 
 struct Turns {
   FrameTime first, second;
+  Summary cpu_ratio, wall_ratio;  // second's over first's, batch by batch
 };
 
 // Both have the same workload open. They draw batches of frames in turns, so that a machine that slows down

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace halfspace::compare {
 
@@ -23,6 +24,13 @@ Summary summarize(std::vector<double> values) {
   if (summary.median != 0)
     summary.spread = (quantile(values, 0.75) - quantile(values, 0.25)) / 2 / summary.median;
   return summary;
+}
+
+Summary paired_ratio(const std::vector<double>& values, const std::vector<double>& divisors) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < std::min(values.size(), divisors.size()); ++i)
+    if (divisors[i] > 0) ratios.push_back(values[i] / divisors[i]);
+  return summarize(std::move(ratios));
 }
 
 }  // namespace halfspace::compare

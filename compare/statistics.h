@@ -18,6 +18,11 @@ struct Summary {
 // All zero for no values.
 Summary summarize(std::vector<double> values);
 
+// Of what was measured in turns: each value over the one it took turns with. A machine that is faster now and
+// slower a moment later changes both of a pair, but may have either list's median fall where the other's does
+// not. Values without a partner, and pairs whose divisor is not above 0, are left out.
+Summary paired_ratio(const std::vector<double>& values, const std::vector<double>& divisors);
+
 // Quantile q in [0, 1], linear between neighbours; `sorted` is ascending and not empty.
 double quantile(const std::vector<double>& sorted, double q);
 

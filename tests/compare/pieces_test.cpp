@@ -35,6 +35,21 @@ TEST(Statistics, SpreadIsOfTheMiddleHalf) {
   EXPECT_DOUBLE_EQ(s.spread, 0.05);  // quartiles 100 and 110; the one wild run does not count
 }
 
+// A machine that is half as fast for some of the pairs.
+TEST(Statistics, RatiosAreOfPairs) {
+  const Summary s = paired_ratio({30, 60, 60, 30}, {10, 20, 20, 10});
+  EXPECT_DOUBLE_EQ(s.median, 3);
+  EXPECT_DOUBLE_EQ(s.spread, 0);
+  EXPECT_EQ(s.count, 4);
+  EXPECT_DOUBLE_EQ(paired_ratio({30, 60, 31}, {10, 20, 20}).median, 3);
+}
+
+TEST(Statistics, WhatHasNoPairIsLeftOut) {
+  EXPECT_EQ(paired_ratio({1, 2, 3}, {1, 2}).count, 2);
+  EXPECT_EQ(paired_ratio({1, 2}, {0, 2}).count, 1);
+  EXPECT_EQ(paired_ratio({}, {}).count, 0);
+}
+
 ChildCommand shell(const std::string& script) {
   ChildCommand command;
   command.arguments = {"sh", "-c", script};
