@@ -110,8 +110,10 @@ struct TileGroup {
 // and the products of the depth planes. A window of columns or rows may begin with any in the tile and reach beyond.
 struct GroupTables {
   static constexpr int kColumns = 32, kRows = 16;  // of a window
-  alignas(64) double across[kSetupLanes][2 * kTileSize], row[kSetupLanes][2 * kTileSize];
-  alignas(64) float dx[kSetupLanes][2 * kTileSize], dy[kSetupLanes][2 * kTileSize];
+  static constexpr int kLaneValues = 2 * kTileSize;
+  static constexpr int at(int lane, int pixel) { return lane * kLaneValues + pixel; }
+  alignas(64) double across[kSetupLanes * kLaneValues], row[kSetupLanes * kLaneValues];
+  alignas(64) float dx[kSetupLanes * kLaneValues], dy[kSetupLanes * kLaneValues];
 };
 
 // Blocks side by side that a list of kernels takes in turn, each kernel all of them: what it works out ahead serves all.

@@ -53,10 +53,10 @@ struct GroupPlane {
   HWY_INLINE VF At(int) const {
     const auto lane = static_cast<size_t>(c.group.lane());
     const GroupPlace place(c.group);
-    const __m256d columns = _mm256_castps_pd(_mm256_load_ps(c.group_tables->dx[0] + place.column));
+    const __m256d columns = _mm256_castps_pd(_mm256_load_ps(c.group_tables->dx + place.column));
     const __m512 dx = _mm512_castpd_ps(_mm512_broadcast_f64x4(columns));
     const __m512 dy = _mm512_add_ps(_mm512_load_ps(kTwoRows<float>.row),
-                                    _mm512_set1_ps(c.group_tables->dy[0][place.row]));
+                                    _mm512_set1_ps(c.group_tables->dy[place.row]));
     const __m512 up = _mm512_mul_ps(dy, _mm512_set1_ps((*table.dfdy)[lane]));
     const __m512 across = _mm512_mul_ps(dx, _mm512_set1_ps((*table.dfdx)[lane]));
     return VF{_mm512_add_ps(_mm512_add_ps(up, _mm512_set1_ps((*table.f0)[lane])), across)};
@@ -86,8 +86,8 @@ struct GroupPlaneDouble {
  private:
   HWY_INLINE VD Depth() const {
     const GroupPlace place(c.group);
-    const __m512d across = _mm512_load_pd(c.group_tables->across[0] + place.column);
-    const double* row = c.group_tables->row[0] + place.row;
+    const __m512d across = _mm512_load_pd(c.group_tables->across + place.column);
+    const double* row = c.group_tables->row + place.row;
     VD v;
     for (int p = 0; p < 2; ++p) v.part[p] = hn::Vec<DD>{_mm512_add_pd(_mm512_set1_pd(row[p]), across)};
     return v;

@@ -130,22 +130,22 @@ HWY_INLINE __m512 SixteenFrom(float k) {
 HWY_INLINE void FillColumnPlaces(int lane, int x, double dx, GroupTables& out) {
   const __m512 first = _mm512_set1_ps(static_cast<float>(dx));
   for (int k = 0; k < GroupTables::kColumns; k += 16)
-    _mm512_storeu_ps(out.dx[lane] + x + k, _mm512_add_ps(SixteenFrom(static_cast<float>(k)), first));
+    _mm512_storeu_ps(out.dx + GroupTables::at(lane, x + k), _mm512_add_ps(SixteenFrom(static_cast<float>(k)), first));
 }
 HWY_INLINE void FillRowPlaces(int lane, int y, double dy, GroupTables& out) {
   static_assert(GroupTables::kRows == 16);
-  _mm512_storeu_ps(out.dy[lane] + y, _mm512_add_ps(SixteenFrom(0), _mm512_set1_ps(static_cast<float>(dy))));
+  _mm512_storeu_ps(out.dy + GroupTables::at(lane, y), _mm512_add_ps(SixteenFrom(0), _mm512_set1_ps(static_cast<float>(dy))));
 }
 HWY_INLINE void FillColumnDepths(const SetupBatch& s, int lane, int x, double dx, GroupTables& out) {
   const __m512d first = _mm512_set1_pd(dx), slope = _mm512_set1_pd(s.dfdx[0][lane]);
   for (int k = 0; k < GroupTables::kColumns; k += 8)
-    _mm512_store_pd(out.across[lane] + x + k, _mm512_mul_pd(_mm512_add_pd(EightFrom(k), first), slope));
+    _mm512_store_pd(out.across + GroupTables::at(lane, x + k), _mm512_mul_pd(_mm512_add_pd(EightFrom(k), first), slope));
 }
 HWY_INLINE void FillRowDepths(const SetupBatch& s, int lane, int y, double dy, GroupTables& out) {
   const __m512d first = _mm512_set1_pd(dy);
   for (int k = 0; k < GroupTables::kRows; k += 8) {
     const __m512d up = _mm512_mul_pd(_mm512_add_pd(EightFrom(k), first), _mm512_set1_pd(s.dfdy[0][lane]));
-    _mm512_storeu_pd(out.row[lane] + y + k, _mm512_add_pd(up, _mm512_set1_pd(s.f0[0][lane])));
+    _mm512_storeu_pd(out.row + GroupTables::at(lane, y + k), _mm512_add_pd(up, _mm512_set1_pd(s.f0[0][lane])));
   }
 }
 #endif
