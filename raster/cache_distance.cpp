@@ -30,10 +30,9 @@ void CacheDistance::read() {
 
 void CacheDistance::measure() {
   if (!measures_ || !was_read_.load(std::memory_order_acquire)) return;
-  was_read_.store(false, std::memory_order_relaxed);
   const auto start = std::chrono::steady_clock::now();
   for (Line& line : lines_) line.value.store(1, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_seq_cst);  // the stores have arrived
+  was_read_.store(false, std::memory_order_seq_cst);  // waits until the others have arrived
   const auto time = std::chrono::steady_clock::now() - start;
   far_ = time > kFarLine * lines_.size();
 }
