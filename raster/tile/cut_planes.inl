@@ -156,9 +156,12 @@ class CutPlanes {
       const int plane = 2 + layout_.tex_coord + axis;
       VD value[3];
       for (int k = 0; k < 3; ++k) value[k] = hn::Div(at(plane, k), hn::Max(inv_w[k], least));
-      const VD turns = hn::IfThenElseZero(usable, WholeTurns(inv_w, params.level_count > 1, value));
+      const VD turns = WholeTurns(inv_w, params.level_count > 1, value);
+      // Whole triangles share the group, and where w is constant have no plane of 1/w that was ever set: times 0 is not
+      // enough to leave them alone.
       const auto take = [&](double(&of)[kMaxPlanes][kSetupLanes]) HWY_ATTR {
-        hn::Store(hn::Sub(hn::Load(d, of[plane] + i), hn::Mul(turns, hn::Load(d, of[1] + i))), d, of[plane] + i);
+        const VD off = hn::IfThenElseZero(usable, hn::Mul(turns, hn::Load(d, of[1] + i)));
+        hn::Store(hn::Sub(hn::Load(d, of[plane] + i), off), d, of[plane] + i);
       };
       take(out.f0), take(out.dfdx), take(out.dfdy);
     }
