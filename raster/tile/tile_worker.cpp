@@ -477,11 +477,23 @@ void RunSegment(TileContext& t, const Segment& segment) {
   }
 }
 
+#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
+// What is used without having been set is NaN, or far outside, rather than what the stack held before.
+template <class... T>
+void Poison(T&... scratch) {
+  (memset(static_cast<void*>(&scratch), 0xFF, sizeof scratch), ...);
+}
+#else
+template <class... T>
+HWY_INLINE void Poison(T&...) {}
+#endif
+
 void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer, uint32_t tile, uint32_t next,
              TileStatistics& statistics) {
   alignas(64) float whole[kBlockPixels];
   for (float& c : whole) c = 1;
   TileContext t;
+  Poison(t.setup, t.input, t.planes, t.groups, t.group_tables, t.given_depth, t.listed.codes);
   t.input_is_clear = false;
   t.framebuffer = &framebuffer;
   t.state = &framebuffer.tiles.data()[tile];
