@@ -175,19 +175,29 @@ struct BandWriter {
   const Rect& rect;  // of the tiles, what the image has
   RowFunctions rows;
   bool direct;
-  int left;      // of the first tile
-  bool cleared;  // all over, with one colour
+  int left;             // of the first tile
+  bool cleared = true;  // nothing is drawn
+  int colours = 0;      // that what is cleared has: none, one (`value`) or, if there are more, 2
+  uint32_t value = 0;
   Tile tiles[kMostTiles];
 
-  BandWriter(const Framebuffer::Impl& framebuffer, int plane_of, const Placed& image, const Rect& part, uint32_t first,
-             uint32_t count)
-      : fb(framebuffer), plane(plane_of), placed(image), rect(part), rows(row_functions()),
-        direct(takes_rgba8(image.image)), left(fb.tile_rect(first).x0), cleared(true) {
+  BandWriter(const Framebuffer::Impl& framebuffer, int plane_of, const Placed& image, const Rect& part,
+             uint32_t first, uint32_t count)
+      : fb(framebuffer),
+        plane(plane_of),
+        placed(image),
+        rect(part),
+        rows(row_functions()),
+        direct(takes_rgba8(image.image)),
+        left(fb.tile_rect(first).x0) {
     for (uint32_t i = 0; i < count; ++i) {
       const ColorMarks& marks = fb.tiles[first + i].color[plane];
       tiles[i] = {marks.is_clear, marks.rgba8, nullptr};
       if (marks.is_clear != ~uint64_t{0}) tiles[i].pixels = fb.color_tile<uint32_t>(first + i, plane);
-      cleared = cleared && tiles[i].pixels == nullptr && marks.rgba8 == tiles[0].value;
+      cleared = cleared && tiles[i].pixels == nullptr;
+      if (marks.is_clear == 0) continue;
+      colours = colours == 0 || (colours == 1 && marks.rgba8 == value) ? 1 : 2;
+      value = marks.rgba8;
     }
   }
 
@@ -210,10 +220,6 @@ struct BandWriter {
   // Runs from x on, no further than `end` nor than there is room; returns where they end.
   int find_runs(int x, int end, int band, BlockRun* runs, int room, int& count) const {
     count = 0;
-    if (cleared) {
-      runs[count++] = {nullptr, tiles[0].value, (end - x) / kBlockSize};
-      return end;
-    }
     while (x < end) {
       const BlockRun run = run_at(x, end, band);
       BlockRun* last = runs + count - 1;
@@ -224,6 +230,28 @@ struct BandWriter {
       x += run.blocks * kBlockSize;
     }
     return x;
+  }
+
+  // Where only short stretches of a band are drawn: a fill that ends at each and begins again costs more than
+  // a few blocks that are filled in vain. False: the band is another kind.
+  bool write_over(int x, int end, int y) const {
+    constexpr int kShort = 8;  // blocks
+    PlacedBlock blocks[kMostTiles * kTileSize / kBlockSize];
+    int count = 0, stretches = 0;
+    ptrdiff_t stretch_end = -1;
+    const int band = y % kTileSize / kBlockSize;
+    for (int t = (x - left) / kTileSize; !cleared && left + t * kTileSize < end; ++t) {
+      for (uint64_t todo = band_of(~tiles[t].is_clear, band); todo != 0; todo &= todo - 1) {
+        const int block = std::countr_zero(todo), at = left + t * kTileSize + block * kBlockSize - x;
+        if (at < 0 || at >= end - x) continue;
+        blocks[count++] = {tiles[t].pixels + (band * 8 + block) * kBlockPixels, at};
+        stretches += at != stretch_end;
+        stretch_end = at + kBlockSize;
+      }
+    }
+    if (count > stretches * kShort) return false;
+    rows.write_over(value, end - x, blocks, count, at(x, y));
+    return true;
   }
 
   void convert(const BlockRun* runs, int count, int width, int x, int y) const {
@@ -244,7 +272,8 @@ struct BandWriter {
     const int first = std::min((rect.x0 + kBlockSize - 1) / kBlockSize * kBlockSize, rect.x1);
     const int end = std::max(rect.x1 / kBlockSize * kBlockSize, first);
     write_edge(rect.x0, first, y);
-    for (int x = first; x < end;) {
+    const bool done = direct && colours == 1 && first < end && write_over(first, end, y);
+    for (int x = done ? end : first; x < end;) {
       constexpr int kRoom = 64;
       BlockRun runs[kRoom];
       int count = 0;

@@ -75,16 +75,27 @@ void WriteRuns(const BlockRun* runs, int count, const PixelRows& out) {
       WriteRows(runs + i, 1, to);
       to.first += runs[i].blocks * kBlockSize;
     }
-  } else if (count == 1 && out.step == runs->blocks * kBlockSize) {
-    FillRow(runs->value, runs->blocks * kBlockPixels, out.first);
   } else {
     WriteRows(runs, count, out);
   }
 }
 
+// The blocks have left the near caches since they were drawn, so two rows of them are asked for while two are
+// written.
+void WriteOver(uint32_t value, int width, const PlacedBlock* blocks, int count, const PixelRows& out) {
+  if (count == 0 && out.step == width) return FillRow(value, width * kBlockSize, out.first);
+  for (int row = 0; row < kBlockSize; ++row) {
+    uint32_t* to = out.first + row * out.step;
+    if (row % 2 == 0 && row + 2 < kBlockSize)
+      for (int i = 0; i < count; ++i) __builtin_prefetch(blocks[i].pixels + (row + 2) * kBlockSize);
+    FillRow(value, width, to);
+    for (int i = 0; i < count; ++i) CopyRow(blocks[i].pixels + row * kBlockSize, 1, to + blocks[i].at);
+  }
+}
+
 void FillWords(uint32_t value, int width, uint32_t* to) { FillRow(value, width, to); }
 
-RowFunctions Functions() { return {&WriteRuns, &FillWords}; }
+RowFunctions Functions() { return {&WriteRuns, &WriteOver, &FillWords}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace halfspace::raster

@@ -15,6 +15,12 @@ struct BlockRun {
   int blocks;
 };
 
+// A block that begins `at` pixels from where the rows of memory do.
+struct PlacedBlock {
+  const uint32_t* pixels;
+  ptrdiff_t at;
+};
+
 // Rows of memory, `step` pixels apart; less than 0: downwards.
 struct PixelRows {
   uint32_t* first;
@@ -24,6 +30,8 @@ struct PixelRows {
 struct RowFunctions {
   // Runs that follow each other, row by row from end to end: memory likes its rows whole.
   void (*write_runs)(const BlockRun* runs, int count, const PixelRows& out);
+  // Eight rows of one colour, and over it what was drawn.
+  void (*write_over)(uint32_t value, int width, const PlacedBlock* blocks, int count, const PixelRows& out);
   // `width` times the same.
   void (*fill_row)(uint32_t value, int width, uint32_t* to);
 };

@@ -122,6 +122,37 @@ TEST(ReadBack, FinishShowsWhatWasDrawn) {
   }
 }
 
+// Things of a few blocks and longer ones on a screen of one colour, read from any column on.
+TEST(ReadBack, NarrowAndWideThingsOnOneColour) {
+  constexpr int kWide = 500, kRows = 70;
+  for (const std::string& isa : isa_levels()) {
+    const IsaScope scope(isa);
+    Random random(7);
+    for (int round = 0; round < 12; ++round) {
+      Canvas canvas(kWide, kRows);
+      const Color ground{0, 0, 1, 1}, color{1, 0, 0, 1};
+      canvas.device().clear(clear_of({0, 0, kWide, kRows}, ground));
+      std::vector<bool> drawn(kWide);
+      for (int x = int(random.integer(0, 60)); x < kWide;) {
+        const int end = std::min(kWide, x + int(random.integer(1, round % 2 == 0 ? 40 : 200)));
+        const auto quad = snapped_quad(x * 256, 0, end * 256, kRows * 256, 512, 0, color);
+        canvas.draw_plain(plain_state(512, 512), Primitive::quads, quad, color);
+        std::fill(drawn.begin() + x, drawn.begin() + end, true);
+        x = end + int(random.integer(1, 60));
+      }
+      const Rect rect{int(random.integer(0, 90)), 0, int(random.integer(400, kWide)), kRows};
+      const int width = rect.x1 - rect.x0;
+      std::vector<uint32_t> out(size_t(width) * kRows);
+      canvas.device().read_color(rect, reinterpret_cast<uint8_t*>(out.data()), kBackPlane);
+      for (int y = 0; y < kRows; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x)
+          ASSERT_EQ(out[size_t(y) * size_t(width) + size_t(x - rect.x0)],
+                    drawn[size_t(x)] ? 0xff0000ffu : 0xffff0000u)
+              << isa << ", round " << round << " at " << x << ", " << y;
+    }
+  }
+}
+
 // A row of tiles wider than are written at once, whose blocks are cleared and written to in turn.
 TEST(ReadBack, WideRowsChangeAtEachBlock) {
   constexpr int kWide = 4500, kRows = 20;
