@@ -1,6 +1,7 @@
 // What a fragment program works on: one primitive on one 8x8 block.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "raster/api/draw_state.h"
@@ -83,6 +84,13 @@ struct alignas(64) PixelQueue {
   int count = 0;
 };
 
+// Pixels of lines on their way to a tile's memory.
+struct alignas(64) LinePixels {
+  static constexpr int kCapacity = 256, kSlack = 16;  // measured best of 64 and 256
+  uint32_t color[kCapacity + kSlack];
+  int32_t offset[kCapacity + kSlack];  // pixel in the tile
+};
+
 // Of the pixels of two rows of a block, in order: column and row.
 template <class T>
 struct TwoRows {
@@ -161,6 +169,12 @@ struct alignas(64) BlockContext {
   TileGroup group;          // that at hand
   unsigned group_lanes;     // bits of the lanes that the groups' primitives have in the batch
   const GroupTables* group_tables;  // where groups may be of several primitives
+  const std::byte *lines, *lines_end;  // packets (raster/primitive/line_packet.h); colour is the tile's
+  int first_line_plane;                // that stands in them
+  const float* line_planes;            // of the line at hand
+  alignas(64) float line_dx[16], line_dy[16];  // pixels at hand minus its anchor
+  LinePixels* line_pixels;
+  uint64_t line_fragments;      // kernels add to it
   StageMeter* meter = nullptr;  // null: nothing is counted
 };
 

@@ -3,6 +3,7 @@
 
 #include "raster/fragment/program.h"
 #include "raster/isa.h"
+#include "raster/primitive/line_packet.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/fragment/kernels.cpp"
@@ -18,6 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/lanes.inl"
 #include "raster/fragment/tile_lanes.inl"
 #include "raster/fragment/group_lanes.inl"
+#include "raster/fragment/line_piece.inl"
+#include "raster/fragment/line_lanes.inl"
 #include "raster/fragment/bytes.inl"
 #include "raster/fragment/wide.inl"
 #include "raster/fragment/stages/alpha_test.inl"
@@ -340,6 +343,42 @@ void RunTileGroups(BlockContext& c) {
   RunListedGroups<GroupLanes<false>, ids...>(c);
 }
 
+// Lines that follow each other, as far as the same kernel is theirs: those after them are left in `lines`.
+template <StageId... ids>
+void RunLineStages(BlockContext& c) {
+  using L = LineLanes;
+  const std::byte *at = c.lines, *const end = c.lines_end;
+  const unsigned variant = LineAt(at).variant();
+  c.first_line_plane = LinePacket::first_plane(variant);
+  const OnceAll<L, ids...> once(c);
+  LinePixels& list = *c.line_pixels;
+  int count = 0;
+  uint64_t fragments = 0;
+  for (; at < end && LineAt(at).variant() == variant; at += LineAt(at).bytes()) {
+    const LinePacket& line = LineAt(at);
+    c.line_planes = line.planes();
+    const int columns = line.count();
+    fragments += static_cast<uint64_t>(columns);
+    for (int column = 0; column < columns; column += kLanes) {
+      const LinePiece<DF> piece(line, column);
+      hn::StoreU(piece.Offset(), DI(), list.offset + count);
+      AskForPixels<kLanes>(c.color, list.offset + count);
+      hn::Store(piece.FromAnchorX(line), DF(), c.line_dx);
+      hn::Store(piece.FromAnchorY(line), DF(), c.line_dy);
+      Lanes v;
+      v.live = MaskFromBits(kGroupBits);
+      (Step<L, L, ids>(c, once, count, v) && ...);
+      count += columns - column < kLanes ? columns - column : kLanes;
+      if (count < LinePixels::kCapacity) continue;
+      StoreListed(list, count, c.color);
+      count = 0;
+    }
+  }
+  StoreListed(list, count, c.color);
+  c.lines = at;
+  c.line_fragments += fragments;
+}
+
 // Stages that look at a fragment's depth say so.
 template <class Body>
 concept TakesDepth = requires { Body::kTakesDepth; };
@@ -363,7 +402,8 @@ struct Entry {
 template <StageId... ids>
 constexpr Entry MakeEntry() {
   Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>}};
-  if constexpr ((BodyOf<ids>::Type::kPacks && ...)) entry.kernels.packed = &RunStages<PackedLanes, ids...>;
+  constexpr bool kPacks = (BodyOf<ids>::Type::kPacks && ...);
+  if constexpr (kPacks) entry.kernels.packed = &RunStages<PackedLanes, ids...>;
   constexpr bool kInTiles = (RunsInTiles<typename BodyOf<ids>::Type> && ...);
   constexpr bool kStores = (StoresPixels<typename BodyOf<ids>::Type> || ...);
   if constexpr (kInTiles) entry.kernels.row = &RunRowBlocks<ids...>;
@@ -372,6 +412,7 @@ constexpr Entry MakeEntry() {
     entry.kernels.tile = &RunTileBlocks<ids...>;
   if constexpr ((RunsInGroups<typename BodyOf<ids>::Type> && ...) && TakenSlots<ids...>() == 0 && GoesByGroups<ids...>())
     entry.kernels.groups = &RunTileGroups<ids...>;
+  if constexpr (kPacks && kStores && TakenSlots<ids...>() == 0) entry.kernels.lines = &RunLineStages<ids...>;
   if constexpr (sizeof...(ids) == 1) {
     entry.kernels.given_depth = entry.kernels.block;
     if constexpr ((TakesDepth<typename BodyOf<ids>::Type> && ...))

@@ -482,11 +482,15 @@ ProgramCode find_code(const CodeKey& key) {
   constexpr StageId kStoring[] = {StageId::depth_always};
   code.stores_depth = find_kernels(kStoring, 1).tile;
   code.packs = key.may_pack;
+  const bool lists_lines = key.fuse && !key.tests_depth;
   for (unsigned variant = 0; variant <= kAffine; ++variant) {
     const StageList& list = key.lists[variant];
     code.packs = code.packs && cover(list, key.tests_depth ? 1 : 0, list.count, key.fuse, &KernelPair::packed,
                                      code.packed[variant]);
+    if (lists_lines) code.lines[variant] = find_kernels(list.ids.data(), list.count).lines;
   }
+  if (code.lines[0] == nullptr || code.lines[kAffine] == nullptr)
+    code.lines[0] = code.lines[kAffine] = nullptr;
   return code;
 }
 

@@ -69,6 +69,8 @@ struct ProgramCode {
   BlockProgram even;
   // Small triangles: depth test first, then these on packed fragments. [0] perspective, [kAffine] affine, in float.
   BlockProgram packed[2];
+  // What `packed` does, as one kernel for packets of lines (BlockContext::lines). Null: there is none.
+  BlockFunction lines[2] = {};
   bool packs = false;
   BlockFunction stores_depth = nullptr;  // on whole blocks of a tile, the depth and nothing else
 };
@@ -132,6 +134,7 @@ struct KernelPair {
   BlockFunction given_depth = nullptr;  // of one stage only: where fragments bring their own depth
   BlockFunction tile = nullptr;         // of a whole list: on whole blocks of a tile
   BlockFunction row = nullptr;          // on whole blocks of a row of a tile
+  BlockFunction lines = nullptr;        // of a whole list: on packets of lines
   BlockFunction groups = nullptr;       // of a depth test, or of a whole list after it: on groups of a tile
 };
 KernelPair find_kernels(const StageId* ids, int count);

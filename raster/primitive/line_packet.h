@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "raster/primitive/segment.h"
+#include "raster/tile/setup_batch.h"
 
 namespace halfspace::raster {
 
@@ -37,6 +38,11 @@ struct LinePacket {
   bool steep() const { return (shape & kSteep) != 0; }
   unsigned variant() const { return shape >> kVariantAt & 3; }
   uint32_t bytes() const { return shape >> kBytesAt << 3; }
+
+  // Those in float; of a draw that reads no depths.
+  const float* planes() const { return reinterpret_cast<const float*>(this + 1); }
+  // The first of them.
+  static constexpr int first_plane(unsigned variant) { return (variant & kAffine) != 0 ? 2 : 1; }
 
   // The pixel along the shorter axis of the fragment in column first + `i`.
   int row(int i) const { return rounded_down(place + step * static_cast<double>(i)); }

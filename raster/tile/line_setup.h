@@ -37,7 +37,7 @@ struct alignas(64) LineGroup {
 
   // Gives where the packet ends. Pieces of 16 bytes, of which the last are overwritten by the next.
   std::byte* write(int lane, const Part& part, std::byte* to) const {
-    const int first = (variant[lane] & kAffine) != 0 ? 2 : 1;
+    const int first = LinePacket::first_plane(static_cast<unsigned>(variant[lane]));
     std::byte* const end = to + line_packet_bytes(plane_end - first, has_depth);
     std::memcpy(to, part.place[lane], 16);
     std::memcpy(to + offsetof(LinePacket, anchor_x), part.anchor[lane], 16);

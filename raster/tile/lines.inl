@@ -1,61 +1,11 @@
-// Lines of one pixel's width that are set up (line_setup.inl): a vector of columns at a time, whose fragments
-// wait with those of small triangles. Compiled once per ISA level.
+// Lines of one pixel's width that are set up (line_setup.inl). Where a kernel takes a line's packet to
+// memory, it does; else its fragments, a vector of columns at a time, wait with those of small triangles.
+// Compiled once per ISA level.
 
 // A pixel a lane.
 using DLf = hn::CappedTag<float, 16>;
 using DLi = hn::RebindToSigned<DLf>;
 inline constexpr int kPixelLanes = static_cast<int>(hn::MaxLanes(DLi()));
-// For the few pixels that many lines have left: half as many lanes, where the others fill two units.
-inline constexpr int kShortLanes = kPixelLanes == 16 ? 8 : 0;
-using DLfShort = hn::CappedTag<float, kPixelLanes == 16 ? 8 : 16>;
-
-// Of a line's columns, 0 to 63.
-struct ColumnNumbers {
-  alignas(64) double of[kTileSize];
-};
-inline constexpr ColumnNumbers kColumns = [] {
-  ColumnNumbers columns{};
-  for (int i = 0; i < kTileSize; ++i) columns.of[i] = i;
-  return columns;
-}();
-
-// Fragments of neighbouring columns; of columns that come after the line's last, too.
-template <class Floats>
-struct LinePiece {
-  using Ints = hn::RebindToSigned<Floats>;
-  static constexpr int kLanes = static_cast<int>(hn::MaxLanes(Ints()));
-  hn::Vec<Ints> x, y;
-
-  // From the line's `column` on, a multiple of the lanes.
-  HWY_INLINE LinePiece(const LinePacket& line, int column) {
-    const Ints d;
-    const auto u = hn::Add(hn::Iota(d, 0), hn::Set(d, line.first + column));
-    const auto v = Rows(line, column);
-    const auto steep = hn::MaskFromVec(hn::Set(d, line.steep() ? -1 : 0));
-    x = hn::IfThenElse(steep, v, u);
-    y = hn::IfThenElse(steep, u, v);
-  }
-
- private:
-  static HWY_INLINE hn::Vec<Ints> Rows(const LinePacket& line, int column) {
-    const DD d;
-    const VD at = hn::Set(d, line.place), step = hn::Set(d, line.step);
-    const auto rows = [&](int i) HWY_ATTR {
-      const VD place = hn::Add(at, hn::Mul(step, hn::Load(d, kColumns.of + column + i)));
-#if HWY_TARGET == HWY_AVX3
-      return hn::Vec<DDi>{_mm512_cvt_roundpd_epi32(place.raw, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)};
-#else
-      return hn::DemoteTo(DDi(), hn::Floor(place));
-#endif
-    };
-#if HWY_TARGET != HWY_SCALAR
-    if constexpr (kLanes == 2 * kDoubleLanes)
-      return hn::Combine(Ints(), rows(kDoubleLanes), rows(0));
-    else
-#endif
-      return rows(0);
-  }
-};
 
 // Blocks of the rectangle with these pixels at opposite corners: among them those of a line from one to the
 // other.
@@ -99,35 +49,18 @@ HWY_NOINLINE void ShadeWholeQueue(TileContext& t) {
   }
 }
 
-// Puts a line's fragments into the queue, behind the first `count` of it. `first`: of the planes that follow
-// the packet.
-template <class Floats>
-HWY_INLINE void QueuePiece(const LinePacket& line, const LinePiece<Floats>& piece, int first, int plane_count,
+// Puts a line's fragments into the queue, behind the first `count` of it.
+HWY_INLINE void QueuePiece(const LinePacket& line, const LinePiece<DLf>& piece, int plane_count,
                            const uint32_t* color, int count, PixelQueue& queue) {
-  const hn::RebindToSigned<Floats> d;
-  const Floats f;
-  const auto dx = hn::Add(hn::ConvertTo(f, piece.x), hn::Set(f, line.anchor_x));
-  const auto dy = hn::Add(hn::ConvertTo(f, piece.y), hn::Set(f, line.anchor_y));
-  const auto* planes = reinterpret_cast<const float*>(&line + 1);
-  const auto store = [&](int p) HWY_ATTR {
-    const float* plane = planes + 3 * (p - first);
+  const DLf f;
+  const auto dx = piece.FromAnchorX(line), dy = piece.FromAnchorY(line);
+  const float* plane = line.planes();
+  for (int p = LinePacket::first_plane(line.variant()); p < plane_count; ++p, plane += 3) {
     const auto row = hn::Add(hn::Set(f, plane[0]), hn::Mul(hn::Set(f, plane[1]), dy));
     hn::StoreU(hn::Add(row, hn::Mul(hn::Set(f, plane[2]), dx)), f, queue.plane[p] + count);
-  };
-  if (HWY_LIKELY(first == 2 && plane_count == 6)) {  // a colour
-    for (int p = 2; p < 6; ++p) store(p);
-  } else {
-    for (int p = first; p < plane_count; ++p) store(p);
   }
-  // As TileOffset has it.
-  const auto bits = [&](int which) HWY_ATTR { return hn::Set(d, which); };
-  const auto in_row = hn::OrAnd(hn::And(piece.x, bits(7)), hn::ShiftLeft<3>(piece.x), bits(7 << 6));
-  const auto in_block_row = hn::OrAnd(in_row, hn::ShiftLeft<3>(piece.y), bits(7 << 3));
-  const auto offset = hn::OrAnd(in_block_row, hn::ShiftLeft<6>(piece.y), bits(7 << 9));
-  hn::StoreU(offset, d, queue.offset + count);
-  // Every other pixel is in the cache line of its neighbour.
-  for (int i = 0; i < LinePiece<Floats>::kLanes; i += 2)
-    __builtin_prefetch(color + queue.offset[count + i], 1);
+  hn::StoreU(piece.Offset(), DLi(), queue.offset + count);
+  AskForPixels<kPixelLanes>(color, queue.offset + count);
 }
 
 // The planes of a line as lane 0 of a batch has them.
@@ -138,31 +71,30 @@ void UnpackPlanes(const LinePacket& line, const float* planes, int plane_count, 
   s.f0[0][0] = depth[0], s.dfdy[0][0] = depth[1], s.dfdx[0][0] = depth[2];
   s.anchor_x[0] = static_cast<double>(line.anchor_x) + tile_x,
   s.anchor_y[0] = static_cast<double>(line.anchor_y) + tile_y;
-  for (int p = (line.variant() & kAffine) != 0 ? 2 : 1; p < plane_count; ++p, planes += 3)
+  for (int p = LinePacket::first_plane(line.variant()); p < plane_count; ++p, planes += 3)
     s.f0_f[p][0] = planes[0], s.dfdy_f[p][0] = planes[1], s.dfdx_f[p][0] = planes[2];
 }
 
-HWY_INLINE const LinePacket& PacketAt(const std::byte* at) {
-  return *reinterpret_cast<const LinePacket*>(at);
+// Lines of a program that has a kernel for them.
+void DrawLines(TileContext& t, const std::byte* from, const std::byte* end) {
+  FlushPacked(t);
+  BlockContext& c = t.block;
+  c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
+  c.line_fragments = 0;
+  c.lines_end = end;
+  for (c.lines = from; c.lines < end;) t.program->lines[LineAt(c.lines).variant()](c);
+  t.statistics->fragments += c.line_fragments;
 }
 
-// Lines without a depth test.
+// Lines of others, without a depth test.
 void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
   PixelQueue& queue = t.packer.queue;
   const uint32_t* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
   const int plane_count = t.plane_count;
   int count = queue.count;  // in a register: stores of planes might be to the queue's
   uint64_t fragments = 0;
-  const auto add = [&](const LinePacket& line, const auto& piece, int pixels) HWY_ATTR {
-    QueuePiece(line, piece, line.variant() != 0 ? 2 : 1, plane_count, color, count, queue);
-    count += pixels;
-    if (count < PixelQueue::kCapacity) return;
-    queue.count = count;
-    ShadeWholeQueue(t);
-    count = queue.count;
-  };
-  for (; from < end; from += PacketAt(from).bytes()) {
-    const LinePacket& line = PacketAt(from);
+  for (; from < end; from += LineAt(from).bytes()) {
+    const LinePacket& line = LineAt(from);
     const unsigned variant = line.variant();
     if (HWY_UNLIKELY(t.packer.variant != variant)) {
       queue.count = count;
@@ -172,12 +104,14 @@ void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
     }
     const int columns = line.count();
     fragments += static_cast<uint64_t>(columns);
-    int column = 0;
-    for (; columns - column > kShortLanes; column += kPixelLanes) {
-      const int left = columns - column;
-      add(line, LinePiece<DLf>(line, column), left < kPixelLanes ? left : kPixelLanes);
+    for (int column = 0; column < columns; column += kPixelLanes) {
+      QueuePiece(line, LinePiece<DLf>(line, column), plane_count, color, count, queue);
+      count += columns - column < kPixelLanes ? columns - column : kPixelLanes;
+      if (count < PixelQueue::kCapacity) continue;
+      queue.count = count;
+      ShadeWholeQueue(t);
+      count = queue.count;
     }
-    if (kShortLanes != 0 && column < columns) add(line, LinePiece<DLfShort>(line, column), columns - column);
   }
   queue.count = count;
   t.statistics->fragments += fragments;
@@ -185,8 +119,8 @@ void StreamLines(TileContext& t, const std::byte* from, const std::byte* end) {
 
 // With one.
 void TestLines(TileContext& t, const std::byte* from, const std::byte* end) {
-  for (; from < end; from += PacketAt(from).bytes()) {
-    const LinePacket& line = PacketAt(from);
+  for (; from < end; from += LineAt(from).bytes()) {
+    const LinePacket& line = LineAt(from);
     UnpackPlanes(line, reinterpret_cast<const float*>(&line + 1) + 6, t.plane_count, t.x, t.y, t.setup);
     for (int column = 0; column < line.count(); column += kPixelLanes) {
       const int left = line.count() - column, count = left < kPixelLanes ? left : kPixelLanes;
@@ -198,8 +132,8 @@ void TestLines(TileContext& t, const std::byte* from, const std::byte* end) {
 // Blocks of the tile that lines may have fragments in.
 uint64_t LineBlocks(const std::byte* from, const std::byte* end) {
   uint64_t blocks = 0;
-  for (; from < end; from += PacketAt(from).bytes()) {
-    const LinePacket& line = PacketAt(from);
+  for (; from < end; from += LineAt(from).bytes()) {
+    const LinePacket& line = LineAt(from);
     const int last = line.count() - 1;
     const int u0 = line.first % kTileSize, v0 = line.row(0) % kTileSize;
     const int u1 = u0 + last, v1 = line.row(last) % kTileSize;
@@ -216,9 +150,10 @@ void RunLinePackets(TileContext& t, const std::byte* from, const std::byte* end)
   if (t.program->reads_depth) return TestLines(t, from, end);
   if (t.state->color[t.program->plane].is_clear != 0) {
     // Many lines reach most of a tile, and to see where they lie would take longer than to store the rest.
-    const bool many = end - from >= kManyLines * static_cast<ptrdiff_t>(PacketAt(from).bytes());
+    const bool many = end - from >= kManyLines * static_cast<ptrdiff_t>(LineAt(from).bytes());
     PrepareWindow(t, many ? ~uint64_t{0} : LineBlocks(from, end));
   }
+  if (t.program->lines[0] != nullptr && t.block.meter == nullptr) return DrawLines(t, from, end);
   StreamLines(t, from, end);
   t.packer.blocks = ~uint64_t{0};  // at the end, since whatever shades the queue on the way clears it
 }

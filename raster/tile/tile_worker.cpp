@@ -60,6 +60,7 @@ struct TileContext {
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
   ListedPixels listed;
   GroupTables group_tables;
+  LinePixels line_pixels;
   TileGroup groups[kTilePixels / kBlockSize + 16];  // what a triangle covers, and room for a vector more
 };
 
@@ -312,6 +313,7 @@ void RunTriangle(TileContext& t, int lane) {
   else WalkTriangle(t, lane, packs);
 }
 
+#include "raster/fragment/line_piece.inl"
 #include "raster/tile/lines.inl"
 #include "raster/tile/shapes.inl"
 
@@ -493,7 +495,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   alignas(64) float whole[kBlockPixels];
   for (float& c : whole) c = 1;
   TileContext t;
-  Poison(t.setup, t.input, t.planes, t.groups, t.group_tables, t.given_depth, t.listed.codes);
+  Poison(t.setup, t.input, t.planes, t.groups, t.group_tables, t.given_depth, t.listed.codes, t.line_pixels);
   t.input_is_clear = false;
   t.framebuffer = &framebuffer;
   t.state = &framebuffer.tiles.data()[tile];
@@ -507,6 +509,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.block.setup = &t.setup;
   t.block.planes = &t.planes;
   t.block.group_tables = &t.group_tables;
+  t.block.line_pixels = &t.line_pixels;
   t.block.coverage = whole;
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
   FlushPacked(t);
