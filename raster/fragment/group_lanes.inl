@@ -25,10 +25,11 @@ struct GroupPlace {
   static constexpr unsigned kLaneBits = 7u << TileGroup::kLaneShift | 1u << (TileGroup::kLaneShift - 1);
   static constexpr unsigned kColumnBits = 7 << 5 | 7, kRowBits = 7 << 8 | 7 << 2;
   static_assert(kBlockSize == 8 && kTileSize == 64 && kLanes == 16 && TileGroup::kIndexShift == 3);
-  unsigned column, row;
+  // 64 bits wide, or else a copy of each makes them so.
+  size_t column, row;
   HWY_INLINE explicit GroupPlace(TileGroup group)
-      : column(_pext_u32(group.bits, kColumnBits | kLaneBits)),
-        row(_pext_u32(group.bits, kRowBits | kLaneBits)) {}
+      : column(_pext_u64(group.bits, kColumnBits | kLaneBits)),
+        row(_pext_u64(group.bits, kRowBits | kLaneBits)) {}
 };
 
 // A plane of all the batch's primitives. Planes beside it are so and so far from there.
@@ -46,17 +47,18 @@ struct GroupPlaneTable {
 struct GroupPlane {
   const BlockContext& c;
   GroupPlaneTable table;
+  const GroupTables& tables;
   HWY_INLINE GroupPlane(const BlockContext& context, int plane)
       : GroupPlane(context, plane, GroupPlaneTable(*context.setup, plane)) {}
   HWY_INLINE GroupPlane(const BlockContext& context, int, const GroupPlaneTable& at)
-      : c(context), table(at) {}
+      : c(context), table(at), tables(*context.group_tables) {}
   HWY_INLINE VF At(int) const {
     const auto lane = static_cast<size_t>(c.group.lane());
     const GroupPlace place(c.group);
-    const __m256d columns = _mm256_castps_pd(_mm256_load_ps(c.group_tables->dx + place.column));
+    const __m256d columns = _mm256_castps_pd(_mm256_load_ps(tables.dx + place.column));
     const __m512 dx = _mm512_castpd_ps(_mm512_broadcast_f64x4(columns));
     const __m512 dy = _mm512_add_ps(_mm512_load_ps(kTwoRows<float>.row),
-                                    _mm512_set1_ps(c.group_tables->dy[place.row]));
+                                    _mm512_set1_ps(tables.dy[place.row]));
     const __m512 up = _mm512_mul_ps(dy, _mm512_set1_ps((*table.dfdy)[lane]));
     const __m512 across = _mm512_mul_ps(dx, _mm512_set1_ps((*table.dfdx)[lane]));
     return VF{_mm512_add_ps(_mm512_add_ps(up, _mm512_set1_ps((*table.f0)[lane])), across)};
@@ -66,11 +68,13 @@ struct GroupPlane {
 struct GroupPlaneDouble {
   const BlockContext& c;
   int plane;
-  HWY_INLINE GroupPlaneDouble(const BlockContext& context, int which) : c(context), plane(which) {}
+  const GroupTables& tables;
+  HWY_INLINE GroupPlaneDouble(const BlockContext& context, int which)
+      : c(context), plane(which), tables(*context.group_tables) {}
   HWY_INLINE VD At(int i) const {
     if (plane == 0) return Depth();
     const SetupBatch& s = *c.setup;
-    const int lane = c.lane;
+    const int lane = c.group.lane();
     const __m512d dx =
         _mm512_add_pd(_mm512_load_pd(kTileSteps.wide + ColumnInTile(i)), _mm512_set1_pd(s.anchor_x[lane]));
     const __m512d across = _mm512_mul_pd(dx, _mm512_set1_pd(s.dfdx[plane][lane]));
@@ -86,8 +90,8 @@ struct GroupPlaneDouble {
  private:
   HWY_INLINE VD Depth() const {
     const GroupPlace place(c.group);
-    const __m512d across = _mm512_load_pd(c.group_tables->across + place.column);
-    const double* row = c.group_tables->row + place.row;
+    const __m512d across = _mm512_load_pd(tables.across + place.column);
+    const double* row = tables.row + place.row;
     VD v;
     for (int p = 0; p < 2; ++p) v.part[p] = hn::Vec<DD>{_mm512_add_pd(_mm512_set1_pd(row[p]), across)};
     return v;
@@ -105,7 +109,7 @@ struct GroupLevelPlane {
 struct GroupFlatColor {
   const BlockContext& c;
   HWY_INLINE explicit GroupFlatColor(const BlockContext& context) : c(context) {}
-  HWY_INLINE VF At(int channel, int) const { return hn::Set(DF(), c.setup->flat[channel][c.lane]); }
+  HWY_INLINE VF At(int channel, int) const { return hn::Set(DF(), c.setup->flat[channel][c.group.lane()]); }
 };
 #else
 inline constexpr bool kGroupsOfMany = false;

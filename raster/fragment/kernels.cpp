@@ -314,7 +314,7 @@ HWY_INLINE void RunListedGroups(BlockContext& c) {
   for (const TileGroup* at = c.groups; at != end; ++at) {
     const TileGroup group = *at;
     const int i = static_cast<int>(group.index()) * kLanes;
-    if constexpr (kGroupsOfMany) c.group = group, c.lane = group.lane();
+    if constexpr (kGroupsOfMany) c.group = group;
     Lanes v;
     v.live = MaskFromBits(group.live());
     (Step<L, L, ids>(c, once, i, v) && ...);
