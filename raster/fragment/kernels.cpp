@@ -352,27 +352,29 @@ void RunLineStages(BlockContext& c) {
   c.first_line_plane = LinePacket::first_plane(variant);
   const OnceAll<L, ids...> once(c);
   LinePixels& list = *c.line_pixels;
-  int count = 0;
+  int count = 0, column = 0;
   uint64_t fragments = 0;
-  for (; at < end && LineAt(at).variant() == variant; at += LineAt(at).bytes()) {
+  while (at < end && LineAt(at).variant() == variant) {
     const LinePacket& line = LineAt(at);
     c.line_planes = line.planes();
-    const int columns = line.count();
-    fragments += static_cast<uint64_t>(columns);
-    for (int column = 0; column < columns; column += kLanes) {
-      const LinePiece<DF> piece(line, column);
-      hn::StoreU(piece.Offset(), DI(), list.offset + count);
-      AskForPixels<kLanes>(c.color, list.offset + count);
-      hn::Store(piece.FromAnchorX(line), DF(), c.line_dx);
-      hn::Store(piece.FromAnchorY(line), DF(), c.line_dy);
-      Lanes v;
-      v.live = MaskFromBits(kGroupBits);
-      (Step<L, L, ids>(c, once, count, v) && ...);
-      count += columns - column < kLanes ? columns - column : kLanes;
-      if (count < LinePixels::kCapacity) continue;
-      StoreListed(list, count, c.color);
-      count = 0;
-    }
+    const LinePiece<DF> piece(line, column);
+    hn::StoreU(piece.Offset(), DI(), list.offset + count);
+    AskForPixels<kLanes>(c.color, list.offset + count);
+    hn::Store(piece.FromAnchorX(line), DF(), c.line_dx);
+    hn::Store(piece.FromAnchorY(line), DF(), c.line_dy);
+    Lanes v;
+    v.live = MaskFromBits(kGroupBits);
+    (Step<L, L, ids>(c, once, count, v) && ...);
+    // Without a branch, which could not be guessed: one piece or more?
+    const int left = line.count() - column, pixels = left < kLanes ? left : kLanes;
+    const uint32_t ends = left <= kLanes ? ~0u : 0u;
+    at += line.bytes() & ends;
+    column = static_cast<int>(static_cast<uint32_t>(column + kLanes) & ~ends);
+    count += pixels;
+    fragments += static_cast<uint64_t>(pixels);
+    if (count < LinePixels::kCapacity) continue;
+    StoreListed(list, count, c.color);
+    count = 0;
   }
   StoreListed(list, count, c.color);
   c.lines = at;

@@ -287,6 +287,12 @@ class Assembler {
 
   void bin_packets(WaitingLines& lines) {
     const LineGroup& group = lines.group;
+    if (!group.has_special(lines.count)) {
+      for (uint32_t todo = group.parts_drawn(lines.count); todo != 0; todo &= todo - 1)
+        bin_part(group, std::countr_zero(todo));
+      lines.count = 0;
+      return;
+    }
     for (int lane = 0; lane < lines.count; ++lane) {
       if (!group.is_drawn(lane)) continue;
       if (group.needs_double(lane)) {
@@ -297,13 +303,17 @@ class Assembler {
         bin_whole(group, lane);
         continue;
       }
-      for (const LineGroup::Part& part : group.parts) {
-        if (part.count[lane] < 1) continue;
-        PacketBin& bin = line_bin(tile_at(part.x[lane], part.y[lane]));
-        take_packet(bin, group.write(lane, part, bin.next));
-      }
+      const uint32_t parts = group.parts_drawn(lines.count) & LineGroup::parts_of(lane);
+      for (uint32_t todo = parts; todo != 0; todo &= todo - 1) bin_part(group, std::countr_zero(todo));
     }
     lines.count = 0;
+  }
+
+  void bin_part(const LineGroup& group, int place) {
+    const int lane = place / LineGroup::kPlaces;
+    const LineGroup::Part& part = group.parts[place % LineGroup::kPlaces];
+    PacketBin& bin = line_bin(tile_at(part.x[lane], part.y[lane]));
+    take_packet(bin, group.write(lane, part, bin.next));
   }
 
   void bin_whole(const LineGroup& group, int lane) {

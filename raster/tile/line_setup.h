@@ -35,6 +35,25 @@ struct alignas(64) LineGroup {
   bool is_drawn(int lane) const { return tile_x0[lane] <= tile_x1[lane] && tile_y0[lane] <= tile_y1[lane]; }
   bool needs_double(int lane) const { return (variant[lane] & kDouble) != 0; }
 
+  // Of the first `count` lines: whether any needs more than that its parts are binned.
+  bool has_special(int count) const {
+    int special = 0;
+    for (int lane = 0; lane < count; ++lane) special |= whole[lane] | (variant[lane] & kDouble);
+    return special != 0;
+  }
+  // Which parts there are of them, a bit each: of line after line.
+  static constexpr int kPlaces = 4;
+  uint32_t parts_drawn(int count) const {
+    uint32_t bits = 0;
+    for (int lane = 0; lane < count; ++lane) {
+      uint32_t of_line = 0;
+      for (int k = 0; k < kParts; ++k) of_line |= (parts[k].count[lane] > 0 ? 1u : 0u) << k;
+      bits |= of_line << (kPlaces * lane);
+    }
+    return bits;
+  }
+  static constexpr uint32_t parts_of(int lane) { return ((1u << kPlaces) - 1) << (kPlaces * lane); }
+
   // Gives where the packet ends. Pieces of 16 bytes, of which the last are overwritten by the next.
   std::byte* write(int lane, const Part& part, std::byte* to) const {
     const int first = LinePacket::first_plane(static_cast<unsigned>(variant[lane]));

@@ -233,10 +233,11 @@ HWY_INLINE void StoreParts(const LineColumns& line, const LineCuts& cuts, VDi sh
   const DDi di;
   const DDf df;
   const auto steep = hn::MaskFromVec(line.steep);
+  const auto has_any = hn::Gt(line.count, hn::Zero(di));
   const VDi begins[LineGroup::kParts + 1] = {hn::Zero(di), cuts.first, cuts.second, line.count};
   for (int k = 0; k < LineGroup::kParts; ++k) {
     LineGroup::Part& part = out.parts[k];
-    const VDi count = hn::Sub(begins[k + 1], begins[k]);
+    const VDi count = hn::IfThenElseZero(has_any, hn::Sub(begins[k + 1], begins[k]));
     hn::Store(count, di, part.count + i);
     hn::Store(hn::IfThenElse(steep, cuts.v[k], cuts.u[k]), di, part.x + i);
     hn::Store(hn::IfThenElse(steep, cuts.u[k], cuts.v[k]), di, part.y + i);
