@@ -14,6 +14,7 @@ namespace halfspace::raster {
 // A texture level as the samplers read it: texel (i, j) at texels[(j + 1) * pitch + i + 1], -1 <= i <= width.
 struct LevelRef {
   const uint32_t* texels;
+  const uint32_t* stacked;  // TextureLevel::stacked
   int32_t pitch;
   int32_t width_i, height_i;
   float width, height;

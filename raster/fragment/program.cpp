@@ -196,8 +196,14 @@ void set_texture_params(const DrawState& state, FragmentParams& params) {
   params.sampler = view.sampler;
   for (int i = 0; i < params.level_count; ++i) {
     const TextureLevel& level = *view.levels[static_cast<size_t>(i)];
-    params.levels[i] = {level.base, level.pitch, level.width, level.height, static_cast<float>(level.width),
-                        static_cast<float>(level.height), level.opaque};
+    params.levels[i] = {level.base,
+                        level.stacked.get(),
+                        level.pitch,
+                        level.width,
+                        level.height,
+                        static_cast<float>(level.width),
+                        static_cast<float>(level.height),
+                        level.opaque};
   }
   // Spec 3.8.8: v(x, y) is 0 for a one-dimensional texture.
   params.lod_scale[0] = view.levels[0]->width;

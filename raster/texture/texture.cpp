@@ -52,6 +52,11 @@ uint32_t border_texel_of(const Color& color, BaseFormat format) {
 
 size_t storage_texels(int width, int height) { return size_t(width + 2) * size_t(height + 2) + 1; }
 
+using TexelArray = std::unique_ptr<uint32_t[], AlignedDelete>;
+TexelArray allocate_texels(size_t count) {
+  return TexelArray(static_cast<uint32_t*>(::operator new[](count * sizeof(uint32_t), std::align_val_t{64})));
+}
+
 // Without their texels.
 std::shared_ptr<TextureLevel> shape_level(int width, int height, int border, BaseFormat format) {
   auto level = std::make_shared<TextureLevel>();
@@ -67,7 +72,7 @@ std::shared_ptr<TextureLevel> shape_level(int width, int height, int border, Bas
 std::shared_ptr<TextureLevel> allocate_level(int width, int height, int border, BaseFormat format) {
   auto level = shape_level(width, height, border, format);
   const size_t count = storage_texels(width, height);
-  level->storage.reset(static_cast<uint32_t*>(::operator new[](count * sizeof(uint32_t), std::align_val_t{64})));
+  level->storage = allocate_texels(count);
   level->base = level->texels = level->storage.get();
   level->texels[count - 1] = 0;  // the padding: loaded, never weighed in
   return level;
@@ -186,6 +191,27 @@ void fill_skirt(TextureLevel& level, const SkirtKey& key) {
   level.skirt_valid = true;
 }
 
+// What a second-level cache holds beside what else is drawn with.
+constexpr size_t kMostStacked = size_t{256} * 256;
+
+size_t stacked_texels(const TextureLevel& level) { return 2 * size_t(level.pitch) * size_t(level.height + 1); }
+
+// By the first level, so that all of a texture's are or none: its kernels ask once for both levels of a lookup.
+bool wants_stacked(const TextureLevel& first, const Sampler& sampler) {
+  const bool linear = sampler.mag == Filter::linear || sampler.min == Filter::linear;
+  return linear && size_t(first.width) * size_t(first.height) <= kMostStacked;
+}
+
+void stack_rows(TextureLevel& level) {
+  const size_t count = stacked_texels(level);
+  if (!level.stacked) level.stacked = allocate_texels(count);
+  const uint32_t* from = level.base;
+  for (uint32_t* out = level.stacked.get(); out != level.stacked.get() + count; out += 2, ++from) {
+    out[0] = from[0];
+    out[1] = from[level.pitch];
+  }
+}
+
 }  // namespace
 
 size_t TextureView::bytes() const {
@@ -193,6 +219,7 @@ size_t TextureView::bytes() const {
   for (int n = 0; n < level_count; ++n) {
     const TextureLevel& level = *levels[size_t(n)];
     sum += storage_texels(level.width, level.height) * sizeof(uint32_t);
+    if (level.stacked) sum += stacked_texels(level) * sizeof(uint32_t);
   }
   return sum;
 }
@@ -306,10 +333,11 @@ std::shared_ptr<const TextureView> Texture::view(const Sampler& sampler, int lev
       break;
     }
     const SkirtKey key = skirt_key(*level, sampler);
-    if (!level->skirt_valid || !(level->skirt == key)) {
-      if (!Impl::is_sole(level)) level = clone_level(*level);
-      fill_skirt(*level, key);
-    }
+    const bool fills = !level->skirt_valid || !(level->skirt == key);
+    const bool stacks = level->stacked ? fills : wants_stacked(*impl_->levels[0], sampler);
+    if ((fills || stacks) && !Impl::is_sole(level)) level = clone_level(*level);
+    if (fills) fill_skirt(*level, key);
+    if (stacks) stack_rows(*level);
     view->levels[size_t(n)] = level;
   }
   if (view->level_count > 0) view->base_format = view->levels[0]->base_format;

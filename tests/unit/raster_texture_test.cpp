@@ -197,5 +197,41 @@ TEST(TextureStorage, LevelsAreDefinedAlone) {
   }
 }
 
+void expect_stacked(const TextureLevel& level) {
+  ASSERT_NE(level.stacked, nullptr);
+  for (int j = -1; j < level.height; ++j) {
+    for (int i = -1; i <= level.width; ++i) {
+      const ptrdiff_t at = 2 * (ptrdiff_t(j + 1) * level.pitch + (i + 1));
+      ASSERT_EQ(level.stacked[size_t(at)], level.texel(i, j)) << i << "," << j;
+      ASSERT_EQ(level.stacked[size_t(at) + 1], level.texel(i, j + 1)) << i << "," << j;
+    }
+  }
+}
+
+TEST(TextureStorage, LevelsForLinearLookupsAreStackedAsTheyChange) {
+  Texture t;
+  define(t, 0, Image(16, 8, 3));
+  Sampler s = wrapping(Wrap::repeat, Wrap::repeat);
+  s.mag = Filter::nearest;
+  const auto nearest = t.view(s, 1);
+  EXPECT_EQ(nearest->levels[0]->stacked, nullptr);
+  s.mag = Filter::linear;
+  const auto held = t.view(s, 1);
+  expect_stacked(*held->levels[0]);
+  EXPECT_EQ(nearest->levels[0]->stacked, nullptr) << "another thread may look at it";
+  t.update_level(0, 3, 7, 2, 1, Image(2, 1, 4).bytes.data(), 8);
+  expect_stacked(*t.view(s, 1)->levels[0]);
+  s.wrap_t = Wrap::clamp_to_edge;
+  expect_stacked(*t.view(s, 1)->levels[0]);
+  expect_stacked(*held->levels[0]);
+  define(t, 0, Image(16, 8, 5));
+  expect_stacked(*t.view(s, 1)->levels[0]);
+  define(t, 0, Image(512, 256, 6));
+  define(t, 1, Image(256, 128, 7));
+  const auto large = t.view(s, 2);
+  EXPECT_EQ(large->levels[0]->stacked, nullptr) << "too large";
+  EXPECT_EQ(large->levels[1]->stacked, nullptr) << "all or none";
+}
+
 }  // namespace
 }  // namespace halfspace::raster

@@ -92,18 +92,34 @@ struct SampleLevels {
     const int first = i % kBlockPixels;
     const auto& group = once.groups[first / kLanes];
     if (group.level == nullptr) return LookEach(*c.params, v);
-    const LevelRef* const level = group.level;
-    const Footprints texels = FetchPlaced(level[0], once, 0, first);
-    if (!group.blends) return LookPlaced(level[0], texels, once, 0, first, v, NothingMeanwhile());
-    Footprints others;
-    LookPlaced(level[0], texels, once, 0, first, v,
-               [&]() HWY_ATTR { others = FetchPlaced(level[1], once, 1, first); });
-    Lanes next = v;
-    LookPlaced(level[1], others, once, 1, first, next, NothingMeanwhile());
-    Blend(next, v);
+    if (IsStacked(*group.level)) LookUp<true>(group, once, first, v);
+    else LookUp<false>(group, once, first, v);
   }
 
  private:
+  template <bool kStacked, class Group, class Places>
+  static HWY_INLINE void LookUp(const Group& group, const Places& places, int i, Lanes& v) {
+    const LevelRef* const level = group.level;
+    const Footprints texels = FetchPlaced<kStacked>(level[0], places, 0, i);
+    if (!group.blends) return LookPlaced(level[0], texels, places, 0, i, v, NothingMeanwhile());
+    Footprints others;
+    LookPlaced(level[0], texels, places, 0, i, v,
+               [&]() HWY_ATTR { others = FetchPlaced<kStacked>(level[1], places, 1, i); });
+    Lanes next = v;
+    LookPlaced(level[1], others, places, 1, i, next, NothingMeanwhile());
+    Blend(next, v);
+  }
+  template <bool kStacked, class Places>
+  static HWY_INLINE Footprints FetchPlaced(const LevelRef& level, const Places& places, int n, int i) {
+    return FetchFrom<kStacked>(level, LaneOffsets(places.offset[n] + i));
+  }
+  template <class Places, class FetchNext>
+  static HWY_INLINE void LookPlaced(const LevelRef& level, const Footprints& texels, const Places& places, int n, int i,
+                                    Lanes& v, FetchNext fetch_next) {
+    const DF d;
+    LookPlace(level, texels, hn::Load(d, places.wu[n] + i), hn::Load(d, places.wv[n] + i), v, fetch_next);
+  }
+
   static HWY_INLINE Place PlaceOn(const LevelRef& level, const Sampler& sampler, VF s, VF t) {
     return kBytes ? FindPlaceDraft(level, sampler.wrap_s, sampler.wrap_t, s, t)
                   : FindPlace(level, sampler.wrap_s, sampler.wrap_t, s, t);
@@ -121,17 +137,6 @@ struct SampleLevels {
   static HWY_INLINE int LevelOf(int key) { return key < 0 ? 0 : key; }
   static HWY_INLINE bool IsLinear(const FragmentParams& p, int key) {
     return (key < 0 ? p.sampler.mag : p.sampler.min) == Filter::linear;
-  }
-
-  template <class Places>
-  static HWY_INLINE Footprints FetchPlaced(const LevelRef& level, const Places& places, int n, int i) {
-    return Fetch(level, LaneOffsets(places.offset[n] + i));
-  }
-  template <class Places, class FetchNext>
-  static HWY_INLINE void LookPlaced(const LevelRef& level, const Footprints& texels, const Places& places, int n, int i,
-                                    Lanes& v, FetchNext fetch_next) {
-    const DF d;
-    LookPlace(level, texels, hn::Load(d, places.wu[n] + i), hn::Load(d, places.wv[n] + i), v, fetch_next);
   }
 
   static HWY_INLINE void Blend(const Lanes& next, Lanes& v) {
