@@ -255,42 +255,39 @@ class Assembler {
         line_packet_bytes(1 + draw_.vertices.layout.attribute_count, draw_.program->reads_depth);
     segment_.packets.start_draw(segment_.bins.size(), largest);
     const SetUpLinesFunction make_group = set_up_lines();
-    WaitingLines lines[2];
-    int now = 0;
+    WaitingLines lines;
     const auto set_up = [&] {
-      if (lines[now].count != 0) make_group(draw_, lines[now].ends, lines[now].count, lines[now].group);
-      now = 1 - now;
-      bin_packets(lines[now]);
+      if (lines.count == 0) return;
+      make_group(draw_, lines.ends, lines.count, lines.group);
+      bin_packets(lines);
+      lines.count = 0;
     };
     for (uint32_t k = first; k < first + count; ++k) {
       const LineVertices v = line_vertices(mode, k);
       const unsigned o0 = outcodes_[v.from], o1 = outcodes_[v.to];
       if (((o0 & o1) | ((o0 | o1) & (kOutNotFinite | kOutCutMask))) != 0) [[unlikely]] {
-        set_up(), set_up();
+        set_up();
         line(v.from, v.to);
         continue;
       }
-      WaitingLines& group = lines[now];
-      group.ends[2 * group.count] = v.from, group.ends[2 * group.count + 1] = v.to;
-      if (++group.count == kSetupLanes) set_up();
+      lines.ends[2 * lines.count] = v.from, lines.ends[2 * lines.count + 1] = v.to;
+      if (++lines.count == kSetupLanes) set_up();
     }
-    set_up(), set_up();
+    set_up();
     segment_.packet_bytes += segment_.packets.finish_draw();
   }
 
-  // A group is binned when the next one has been set up: what branches hang on is known by then.
   struct WaitingLines {
     LineGroup group;
     uint32_t ends[2 * kSetupLanes];
     int count = 0;
   };
 
-  void bin_packets(WaitingLines& lines) {
+  void bin_packets(const WaitingLines& lines) {
     const LineGroup& group = lines.group;
     if (!group.has_special(lines.count)) {
       for (uint32_t todo = group.parts_drawn(lines.count); todo != 0; todo &= todo - 1)
         bin_part(group, std::countr_zero(todo));
-      lines.count = 0;
       return;
     }
     for (int lane = 0; lane < lines.count; ++lane) {
@@ -306,7 +303,6 @@ class Assembler {
       const uint32_t parts = group.parts_drawn(lines.count) & LineGroup::parts_of(lane);
       for (uint32_t todo = parts; todo != 0; todo &= todo - 1) bin_part(group, std::countr_zero(todo));
     }
-    lines.count = 0;
   }
 
   void bin_part(const LineGroup& group, int place) {
