@@ -14,6 +14,7 @@
 #include "raster/primitive/window_box.h"
 #include "raster/surface/framebuffer.h"
 #include "raster/tile/line_setup.h"
+#include "raster/tile/settled_planes.h"
 #include "raster/vertex/vertex_stage.h"
 
 namespace halfspace::raster {
@@ -223,11 +224,12 @@ class Assembler {
     if (!clipper().clip_line(v, any, cut, planes)) return;
     const Rect box = line_box(cut.x, cut.y);
     if (box.empty()) return;
-    cut.source = uint32_t(segment_.plane_sources.size());
+    cut.source = 0;
     const auto index = uint32_t(segment_.cut_triangles.size());
-    segment_.plane_sources.push_back(planes);
     segment_.cut_triangles.push_back(cut);
-    bin_line(tile_box(box), {{index, 0, cut.source}, PrimitiveKind::line, true, false, 0});
+    settle_pieces(draw_, PrimitiveKind::line, index, &planes, segment_);
+    const uint32_t settled = segment_.cut_triangles[index].source;
+    bin_line(tile_box(box), {{index, 0, settled}, PrimitiveKind::line, true, false, 0});
   }
 
   // A line that is no packet, where others may be.

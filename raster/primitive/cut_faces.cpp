@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "raster/tile/settled_planes.h"
+
 namespace halfspace::raster {
 
 CutFaces::CutFaces(const DrawRecord& draw, const Clipper& clipper, const FacingRule& facing, Segment& segment)
@@ -108,7 +110,8 @@ void CutFaces::add_piece(uint32_t face, const CutTriangle& piece) {
 void CutFaces::make_planes() {
   if (job_.count == 0) return;
   functions_.make_planes(draw_.vertices, window_, job_);
-  uint32_t kept = faces_[of_job_[0]].pieces.first;
+  const uint32_t first = faces_[of_job_[0]].pieces.first;
+  uint32_t kept = first;
   for (uint32_t lane = 0; lane < job_.count; ++lane) {
     Face& face = faces_[of_job_[lane]];
     Pieces& pieces = face.pieces;
@@ -120,13 +123,13 @@ void CutFaces::make_planes() {
     CutTriangle* const all = segment_.cut_triangles.data();
     for (uint32_t i = 0; i < pieces.count; ++i) {
       all[kept + i] = all[pieces.first + i];
-      all[kept + i].source = uint32_t(segment_.plane_sources.size());
+      all[kept + i].source = lane;
     }
     pieces.first = std::exchange(kept, kept + pieces.count);
     job_.planes[lane].provoking = face.provoking;
-    segment_.plane_sources.push_back(job_.planes[lane]);
   }
   segment_.cut_triangles.resize(kept);
+  settle_pieces(draw_, PrimitiveKind::triangle, first, job_.planes, segment_);
   job_.count = 0;
 }
 

@@ -22,18 +22,22 @@ struct Plane {
   double f0, dfdx, dfdy;
 };
 
-// Attribute planes of a triangle that was cut, from the whole (uncut) triangle in homogeneous coordinates, all
-// relative to one anchor (x0, y0) in 16.8. Planes: [0] depth in [0,1], [1] 1/w, [2 + i] attribute i / w.
-struct PlaneSource {
+// Attribute planes of a triangle that was cut, from the whole (uncut) triangle in homogeneous coordinates,
+// all relative to one anchor (x0, y0) in 16.8. Planes: [0] depth in [0,1], [1] 1/w, [2 + i] attribute i / w.
+// Settled they are those of a piece, as SetupBatch has them (raster/tile/settled_planes.h).
+struct alignas(64) PlaneSource {
+  PlaneSource() {}     // lists of them grow without being cleared
+  int32_t x[3], y[3];  // corners of the piece, where they are settled
   int32_t x0, y0;
   uint32_t provoking;  // vertex that gives the flat colour
+  uint8_t variant;     // where they are settled, as in SetupBatch
   Plane planes[kMaxPlanes];
 };
 
-// A triangle of a cut polygon: its own corners, the planes of its source. Lines have two corners, points one.
+// A triangle of a cut polygon: its own corners. Lines have two corners, points one.
 struct CutTriangle {
   int32_t x[3], y[3];  // 16.8, counter-clockwise or clockwise as the source was
-  uint32_t source;     // index of its PlaneSource
+  uint32_t source;     // index of its PlaneSource, which is settled in a segment
 };
 
 // A smooth triangle makes a fragment wherever it touches a pixel. A run is of points or lines

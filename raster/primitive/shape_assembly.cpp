@@ -9,6 +9,7 @@
 #include "raster/primitive/shape_clip.h"
 #include "raster/primitive/window_box.h"
 #include "raster/tile/coverage.h"
+#include "raster/tile/settled_planes.h"
 
 namespace halfspace::raster {
 namespace {
@@ -123,13 +124,15 @@ class ShapeAssembler {
       return;
     }
     planes.provoking = t.v[provoking];
-    const auto source = uint32_t(segment_.plane_sources.size());
-    segment_.plane_sources.push_back(planes);
+    const auto first = uint32_t(segment_.cut_triangles.size());
     for (int i = 0; i < polygon.triangle_count; ++i) {
-      const CutTriangle cut = polygon.triangle_at(i, source);
-      if (triangle_area(cut.x, cut.y) == 0) continue;
-      segment_.cut_triangles.push_back(cut);
-      bin_filled({{uint32_t(segment_.cut_triangles.size() - 1), 0, source}, kind(), true, back, 0}, cut.x, cut.y);
+      const CutTriangle cut = polygon.triangle_at(i, 0);
+      if (triangle_area(cut.x, cut.y) != 0) segment_.cut_triangles.push_back(cut);
+    }
+    settle_pieces(draw_, kind(), first, &planes, segment_);
+    for (uint32_t i = first; i < segment_.cut_triangles.size(); ++i) {
+      const CutTriangle& cut = segment_.cut_triangles[i];
+      bin_filled({{i, 0, cut.source}, kind(), true, back, 0}, cut.x, cut.y);
     }
   }
 
@@ -302,11 +305,12 @@ class ShapeAssembler {
 
   void append_cut(CutTriangle& cut, const PlaneSource& planes, PrimitiveKind kind, uint32_t stipple,
                   bool back, const Rect& box) {
-    cut.source = uint32_t(segment_.plane_sources.size());
+    cut.source = 0;
     const auto index = uint32_t(segment_.cut_triangles.size());
-    segment_.plane_sources.push_back(planes);
     segment_.cut_triangles.push_back(cut);
-    bin_box(segment_, tile_box(box), append({{index, stipple, cut.source}, kind, true, back, 0}));
+    settle_pieces(draw_, kind, index, &planes, segment_);
+    const uint32_t settled = segment_.cut_triangles[index].source;
+    bin_box(segment_, tile_box(box), append({{index, stipple, settled}, kind, true, back, 0}));
   }
 
   // Pixels a line can reach: those its box touches, half its width more, and one for the diamonds beside it.

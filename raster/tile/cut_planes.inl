@@ -1,41 +1,29 @@
-// Set-up of cut primitives: their planes are those of the whole primitive, there already. Compiled once per ISA level.
+// Planes of what was cut, as set-up takes them: made once, when it is cut. They are those of the whole primitive, there
+// already. Compiled once per ISA level.
 
-// Of a batch. A triangle's planes are moved to its own corner where 1/w is least, since floats round least where they
-// start from; whether floats do is then decided by the bounds at its own corners, as for whole triangles. Cut lines and
-// points take doubles.
+// Of up to eight pieces. A triangle's planes are moved to its own corner where 1/w is least, since floats round least
+// where they start from; whether floats do is then decided by the bounds at its own corners, as for whole triangles. Cut
+// lines and points take doubles, and so do smooth triangles.
 class CutPlanes {
  public:
-  HWY_INLINE CutPlanes(const Segment& segment, const VertexLayout& layout, const uint32_t* ids, int count)
-      : layout_(layout) {
-    for (int lane = 0; lane < count; ++lane) {
-      const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-      if (!ref.cut) continue;
-      cut_ |= 1u << lane;
-      if (ref.kind == PrimitiveKind::triangle) triangles_ |= 1u << lane;
-      source_[lane] = &segment.plane_sources.data()[ref.v[2]];
-    }
-    // Somewhere to look at for the others.
-    for (int lane = 0; lane < kSetupLanes && cut_ != 0; ++lane)
-      if ((cut_ >> lane & 1) == 0) source_[lane] = source_[__builtin_ctz(cut_)];
+  HWY_INLINE CutPlanes(const VertexLayout& layout, bool triangles, const PlaneSource* const* sources, int count)
+      : layout_(layout), triangles_(triangles) {
+    for (int lane = 0; lane < kSetupLanes; ++lane) source_[lane] = sources[lane < count ? lane : 0];
   }
 
-  // The planes of the batch's cut primitives, whose corners are `in`'s.
-  HWY_INLINE void Move(const SetupInput& in, int32_t center_x, int32_t center_y, SetupBatch& out) {
-    for (int i = 0; i < kSetupLanes; i += kDoubleLanes)
-      if ((cut_ >> i & kGroup) != 0) MoveGroup(in, center_x, center_y, i, out);
-    for (unsigned todo = cut_; todo != 0; todo &= todo - 1) out.variant[__builtin_ctz(todo)] = kDouble;
+  // The planes, of pieces whose corners are `in`'s. Anchors are those of the whole picture's first pixel.
+  HWY_INLINE void Move(const SetupInput& in, SetupBatch& out) {
+    for (int i = 0; i < kSetupLanes; i += kDoubleLanes) MoveGroup(in, i, out);
+    memset(out.variant, kDouble, sizeof out.variant);
   }
 
   // Which of the triangles floats do for.
   HWY_INLINE void Judge(const FragmentParams& params, SetupBatch& out) const {
-    if (triangles_ == 0 || layout_.projective || params.plane_rule == PlaneRule::in_double) return;
-    for (int i = 0; i < kSetupLanes; i += kDoubleLanes)
-      if ((triangles_ >> i & kGroup) != 0) JudgeGroup(params, i, out);
+    if (!triangles_ || layout_.projective || params.plane_rule == PlaneRule::in_double) return;
+    for (int i = 0; i < kSetupLanes; i += kDoubleLanes) JudgeGroup(params, i, out);
   }
 
  private:
-  static constexpr unsigned kGroup = (1u << kDoubleLanes) - 1;
-
   struct Places {
     VD x, y;  // 16.8
   };
@@ -80,12 +68,9 @@ class CutPlanes {
     return place;
   }
 
-  HWY_NOINLINE void MoveGroup(const SetupInput& in, int32_t center_x, int32_t center_y, int i, SetupBatch& out) {
+  HWY_NOINLINE void MoveGroup(const SetupInput& in, int i, SetupBatch& out) {
     const DD d;
     const DDi di;
-    const DDf f;
-    const auto is_cut = Lanes(cut_, i), is_triangle = Lanes(triangles_, i);
-    const auto put = [&](VD v, double* to) HWY_ATTR { hn::Store(hn::IfThenElse(is_cut, v, hn::Load(d, to)), d, to); };
     const VD words = Gather(i, [](const PlaneSource& s) HWY_ATTR {
       double word;  // x0 and y0
       memcpy(&word, &s.x0, sizeof word);
@@ -97,9 +82,7 @@ class CutPlanes {
     for (int k = 0; k < 3; ++k)
       corner[k] = {hn::PromoteTo(d, hn::Load(di, in.x[k] + i)), hn::PromoteTo(d, hn::Load(di, in.y[k] + i))};
     const Planes inv_w = PlanesOf(1, i);
-    const Places farthest = Farthest(corner, inv_w, from);
-    const Places anchor{hn::IfThenElse(is_triangle, farthest.x, from.x),
-                        hn::IfThenElse(is_triangle, farthest.y, from.y)};
+    const Places anchor = triangles_ ? Farthest(corner, inv_w, from) : from;
     for (int k = 0; k < 3; ++k) {
       hn::Store(Pixels(hn::Sub(corner[k].x, anchor.x)), d, x_[k] + i);
       hn::Store(Pixels(hn::Sub(corner[k].y, anchor.y)), d, y_[k] + i);
@@ -110,14 +93,12 @@ class CutPlanes {
       const bool color = layout_.color >= 0 && p >= 2 + layout_.color && p < 6 + layout_.color;
       const VD scale = hn::Set(d, p == 0 ? kDepthScale : (color ? 255.0 : 1.0));
       // Truncation then rounds depth to nearest.
-      put(hn::Add(hn::Mul(plane.At(dx, dy), scale), hn::Set(d, p == 0 ? 0.5 : 0.0)), out.f0[p] + i);
-      put(hn::Mul(plane.dfdx, scale), out.dfdx[p] + i);
-      put(hn::Mul(plane.dfdy, scale), out.dfdy[p] + i);
+      hn::Store(hn::Add(hn::Mul(plane.At(dx, dy), scale), hn::Set(d, p == 0 ? 0.5 : 0.0)), d, out.f0[p] + i);
+      hn::Store(hn::Mul(plane.dfdx, scale), d, out.dfdx[p] + i);
+      hn::Store(hn::Mul(plane.dfdy, scale), d, out.dfdy[p] + i);
     }
-    put(Pixels(hn::Sub(hn::Set(d, static_cast<double>(center_x)), anchor.x)), out.anchor_x + i);
-    put(Pixels(hn::Sub(hn::Set(d, static_cast<double>(center_y)), anchor.y)), out.anchor_y + i);
-    hn::Store(hn::DemoteTo(f, hn::Load(d, out.anchor_x + i)), f, out.anchor_x_f + i);
-    hn::Store(hn::DemoteTo(f, hn::Load(d, out.anchor_y + i)), f, out.anchor_y_f + i);
+    hn::Store(Pixels(hn::Neg(anchor.x)), d, out.anchor_x + i);
+    hn::Store(Pixels(hn::Neg(anchor.y)), d, out.anchor_y + i);
   }
 
   HWY_NOINLINE void JudgeGroup(const FragmentParams& params, int i, SetupBatch& out) const {
@@ -135,8 +116,7 @@ class CutPlanes {
     bounds.CheckAttributes(layout_, params, NoLane(), i, out);
     alignas(64) double fails[kDoubleLanes];
     hn::Store(hn::IfThenElseZero(bounds.fails, hn::Set(d, static_cast<double>(kDouble))), d, fails);
-    for (unsigned todo = triangles_ >> i & kGroup; todo != 0; todo &= todo - 1)
-      out.variant[i + __builtin_ctz(todo)] = static_cast<uint8_t>(fails[__builtin_ctz(todo)]);
+    for (int k = 0; k < kDoubleLanes; ++k) out.variant[i + k] = static_cast<uint8_t>(fails[k]);
   }
 
   HWY_INLINE void TakeWholeTurns(const FragmentParams& params, const VD x[3], const VD y[3], int i,
@@ -148,7 +128,7 @@ class CutPlanes {
       return hn::Add(row, hn::Mul(hn::Load(d, out.dfdx[plane] + i), x[k]));
     };
     VD inv_w[3];
-    auto usable = Lanes(triangles_, i);
+    auto usable = hn::Eq(least, least);
     for (int k = 0; k < 3; ++k) inv_w[k] = at(1, k), usable = hn::And(usable, hn::Ge(inv_w[k], least));
     const Wrap wrap[2] = {params.sampler.wrap_s, params.sampler.wrap_t};
     for (int axis = 0; axis < 2; ++axis) {
@@ -157,8 +137,6 @@ class CutPlanes {
       VD value[3];
       for (int k = 0; k < 3; ++k) value[k] = hn::Div(at(plane, k), hn::Max(inv_w[k], least));
       const VD turns = WholeTurns(inv_w, params.level_count > 1, value);
-      // Whole triangles share the group, and where w is constant have no plane of 1/w that was ever set: times 0 is not
-      // enough to leave them alone.
       const auto take = [&](double(&of)[kMaxPlanes][kSetupLanes]) HWY_ATTR {
         const VD off = hn::IfThenElseZero(usable, hn::Mul(turns, hn::Load(d, of[1] + i)));
         hn::Store(hn::Sub(hn::Load(d, of[plane] + i), off), d, of[plane] + i);
@@ -175,7 +153,67 @@ class CutPlanes {
   }
 
   const VertexLayout& layout_;
-  unsigned cut_ = 0, triangles_ = 0;  // bits of the lanes that are
+  bool triangles_;
   const PlaneSource* source_[kSetupLanes];
   alignas(64) double x_[3][kSetupLanes], y_[3][kSetupLanes];  // corners, pixels from the anchor
 };
+
+// What SettlePlanesFunction says.
+void SettlePlanes(const DrawRecord& draw, PrimitiveKind kind, const CutTriangle* pieces, const PlaneSource* const* sources,
+                  int count, PlaneSource* out) {
+  const VertexLayout& layout = draw.vertices.layout;
+  const bool triangles = kind == PrimitiveKind::triangle;
+  SetupInput in;
+  SetupBatch batch;
+  for (int lane = 0; lane < kSetupLanes; ++lane) {
+    const CutTriangle& piece = pieces[lane < count ? lane : 0];
+    for (int k = 0; k < 3; ++k) {
+      const int corner = triangles ? k : 0;
+      in.x[k][lane] = piece.x[corner], in.y[k][lane] = piece.y[corner];
+    }
+  }
+  const DD d;
+  for (int i = 0; triangles && i < kSetupLanes; i += kDoubleLanes) {
+    CornerVectors v;
+    VD inv_w[3];
+    for (int k = 0; k < 3; ++k) {
+      v.place_x[k] = hn::Load(DDi(), in.x[k] + i), v.place_y[k] = hn::Load(DDi(), in.y[k] + i);
+      v.x[k] = hn::PromoteTo(d, v.place_x[k]), v.y[k] = hn::PromoteTo(d, v.place_y[k]);
+      inv_w[k] = hn::Set(d, 1.0);
+    }
+    const CornerOrder order(v.x, v.y, inv_w);
+    order.Apply(v.place_x), order.Apply(v.place_y);
+    StorePlaces(v, i, in);
+  }
+  CutPlanes planes(layout, triangles, sources, count);
+  planes.Move(in, batch);
+  planes.Judge(draw.program->params, batch);
+  for (int lane = 0; lane < count; ++lane) {
+    PlaneSource& to = out[lane];
+    memcpy(to.x, pieces[lane].x, sizeof to.x);
+    memcpy(to.y, pieces[lane].y, sizeof to.y);
+    to.x0 = static_cast<int32_t>(-batch.anchor_x[lane] * kSubpixelScale);
+    to.y0 = static_cast<int32_t>(-batch.anchor_y[lane] * kSubpixelScale);
+    to.provoking = sources[lane]->provoking;
+    to.variant = batch.variant[lane];
+    for (int p = 0; p < 2 + layout.attribute_count; ++p)
+      to.planes[p] = {batch.f0[p][lane], batch.dfdx[p][lane], batch.dfdy[p][lane]};
+  }
+}
+
+// Settled planes take the place of those that set-up has made.
+HWY_INLINE void TakeSettled(const PlaneSource& from, int plane_count, int32_t center_x, int32_t center_y, int lane,
+                            SetupBatch& out) {
+  constexpr double kPixel = 1.0 / kSubpixelScale;
+  out.anchor_x[lane] = static_cast<double>(center_x - from.x0) * kPixel;
+  out.anchor_y[lane] = static_cast<double>(center_y - from.y0) * kPixel;
+  out.anchor_x_f[lane] = static_cast<float>(out.anchor_x[lane]);
+  out.anchor_y_f[lane] = static_cast<float>(out.anchor_y[lane]);
+  out.variant[lane] = from.variant;
+  for (int p = 0; p < plane_count; ++p) {
+    const Plane& plane = from.planes[p];
+    out.f0[p][lane] = plane.f0, out.dfdx[p][lane] = plane.dfdx, out.dfdy[p][lane] = plane.dfdy;
+    out.f0_f[p][lane] = static_cast<float>(plane.f0);
+    out.dfdx_f[p][lane] = static_cast<float>(plane.dfdx), out.dfdy_f[p][lane] = static_cast<float>(plane.dfdy);
+  }
+}

@@ -51,7 +51,7 @@ struct JoinedDraws {
       ends[draw_count] = count;
     }
     if (draw_count < 2) return false;
-    refs.triangles = true, refs.any_cut = refs.any_back = false;
+    refs.triangles = true, refs.any_back = false, refs.cut = 0;
     for (int lane = count; lane < kSetupLanes; ++lane)
       for (int k = 0; k < 3; ++k) refs.at[k][lane] = refs.at[k][0];
     return true;

@@ -341,8 +341,7 @@ HWY_INLINE VD SetPlanes(const SetupInput& in, const VertexLayout& layout, const 
 HWY_INLINE void SetFlatColor(const Segment& segment, const DrawRecord& draw, const PrimitiveRef& ref,
                              int lane, SetupBatch& out) {
   const uint32_t vertex =
-      ref.cut ? segment.plane_sources.data()[segment.cut_triangles.data()[ref.v[0]].source].provoking
-              : ref.v[ref.provoking];
+      ref.cut ? segment.plane_sources.data()[ref.v[2]].provoking : ref.v[ref.provoking];
   const VertexLayout& layout = draw.vertices.layout;
   const int place = ref.back_facing && layout.back_color >= 0 ? layout.back_color : layout.color;
   const float* color = Attributes(Head(draw.vertices, layout.stride(), vertex)) + place;
@@ -416,8 +415,6 @@ HWY_NOINLINE void FinishLanes(const Segment& segment, const DrawRecord& draw, co
   const VertexLayout& layout = draw.vertices.layout;
   const FragmentParams& params = draw.program->params;
   const bool flat = layout.color >= 0 && draw.program->flat_shading;
-  CutPlanes cut(segment, layout, ids, count);
-  cut.Move(in, center_x, center_y, out);
   for (int lane = 0; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
     if (flat) SetFlatColor(segment, draw, ref, lane, out);
@@ -425,7 +422,6 @@ HWY_NOINLINE void FinishLanes(const Segment& segment, const DrawRecord& draw, co
     if (draw.shape.offset_fill && ref.kind <= PrimitiveKind::smooth_triangle)
       OffsetDepth(draw.state->polygon, lane, out);
   }
-  cut.Judge(params, out);
 }
 
 HWY_INLINE void SetAnchor(const CornerVectors& v, int i, VD center_x, VD center_y, SetupBatch& out) {
@@ -442,7 +438,7 @@ HWY_INLINE void SetAnchor(const CornerVectors& v, int i, VD center_x, VD center_
 // What set-up makes of the corners of a batch, which lie as `from` knows.
 template <class Corners>
 HWY_INLINE void SetUpCorners(const Corners& from, const Segment& segment, const DrawRecord& draw, const uint32_t* ids,
-                             int count, bool any_cut, int32_t center_x, int32_t center_y, const Rect& limit, SetupInput& in,
+                             int count, int32_t center_x, int32_t center_y, const Rect& limit, SetupInput& in,
                              SetupBatch& out) {
   const DD d;
   const VertexLayout& layout = draw.vertices.layout;
@@ -452,7 +448,7 @@ HWY_INLINE void SetUpCorners(const Corners& from, const Segment& segment, const 
   for (int i = 0; i < count; i += kDoubleLanes) {
     CornerVectors v;
     SpreadCorners(from, quads, layout.attribute_count, i, v, in);
-    if (HWY_UNLIKELY(layout.low >= 0 || params.one_lambda || any_cut)) StorePlaces(v, i, in);
+    if (HWY_UNLIKELY(layout.low >= 0 || params.one_lambda)) StorePlaces(v, i, in);
     if (HWY_UNLIKELY(layout.low >= 0)) {
       const int left = count - i;
       LoadLowParts(segment, draw.vertices, ids, i, left < kDoubleLanes ? left : kDoubleLanes, in);
@@ -475,9 +471,9 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
   // With the colours that come first.
   if (HWY_LIKELY(refs.triangles && !(refs.any_back && layout.back_color >= 0))) {
     const auto set_up = [&](const auto& at) HWY_ATTR {
-      SetUpCorners(DirectCorners{at}, segment, draw, ids, count, refs.any_cut, center_x, center_y, limit, in, out);
+      SetUpCorners(DirectCorners{at}, segment, draw, ids, count, center_x, center_y, limit, in, out);
     };
-    if (HWY_LIKELY(!refs.any_cut)) set_up(refs.at);
+    if (HWY_LIKELY(refs.cut == 0)) set_up(refs.at);
     else set_up(CutCorners(segment, refs, ids, count).at);
   } else
 #endif
@@ -485,9 +481,14 @@ void SetUp(const Segment& segment, const DrawRecord& draw, const uint32_t* ids, 
     const QuadPlan quads(layout.attribute_count);
     for (int lane = 0; lane < count; ++lane)
       CopyCorners(segment, draw.vertices, stride, segment.primitives.data()[ids[lane]], quads, lane, in);
-    SetUpCorners(StagedCorners{in}, segment, draw, ids, count, refs.any_cut, center_x, center_y, limit, in, out);
+    SetUpCorners(StagedCorners{in}, segment, draw, ids, count, center_x, center_y, limit, in, out);
   }
   const bool flat = layout.color >= 0 && draw.program->flat_shading;
-  if (refs.any_cut || flat || draw.shape.offset_fill || draw.program->params.one_lambda)
+  for (unsigned todo = refs.cut & ((1u << count) - 1); HWY_UNLIKELY(todo != 0); todo &= todo - 1) {
+    const int lane = __builtin_ctz(todo);
+    const PlaneSource& planes = segment.plane_sources.data()[segment.primitives.data()[ids[lane]].v[2]];
+    TakeSettled(planes, 2 + layout.attribute_count, center_x, center_y, lane, out);
+  }
+  if (flat || draw.shape.offset_fill || draw.program->params.one_lambda)
     FinishLanes(segment, draw, ids, count, center_x, center_y, in, out);
 }

@@ -209,7 +209,8 @@ struct BatchRefs {
   // Of a cut primitive, nowhere.
   alignas(64) const unsigned char* at[3][kSetupLanes];
   bool triangles;  // and nothing else; whole or cut
-  bool any_cut, any_back;
+  bool any_back;
+  unsigned cut;  // bits of the lanes that are, beyond the last one also
 
   // Lanes beyond `count` are as the first one, so that they can be computed with.
   HWY_INLINE void Read(const Segment& segment, const ShadedVertices& vertices, size_t stride, const uint32_t* ids,
@@ -237,7 +238,10 @@ struct BatchRefs {
     const __m256i traits = _mm256_unpackhi_epi64(high_ab, high_ce);  // a byte each, as they stand in PrimitiveRef
     const auto any = [&](int bits) HWY_ATTR { return _mm256_testz_si256(traits, _mm256_set1_epi32(bits)) == 0; };
     static_assert(offsetof(PrimitiveRef, kind) == 12 && PrimitiveKind{} == PrimitiveKind::triangle);
-    triangles = !any(0xff), any_cut = any(0xff00), any_back = any(0xff0000);
+    triangles = !any(0xff), any_back = any(0xff0000);
+    // Of a bool, its one bit where a float's sign is.
+    static_assert(offsetof(PrimitiveRef, cut) == 13 && sizeof(bool) == 1);
+    cut = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_slli_epi32(traits, 31 - 8))));
   }
 
   static HWY_INLINE void Place(__m256i vertex, const unsigned char* records, size_t stride, const unsigned char** out) {
@@ -255,11 +259,11 @@ struct BatchRefs {
   }
 #else
   HWY_INLINE void ReadAll(const PrimitiveRef* refs, const unsigned char* records, size_t stride, const uint32_t* ids) {
-    triangles = true, any_cut = any_back = false;
+    triangles = true, any_back = false, cut = 0;
     for (int lane = 0; lane < kSetupLanes; ++lane) {
       const PrimitiveRef& ref = refs[ids[lane]];
       triangles &= ref.kind == PrimitiveKind::triangle;
-      any_cut |= ref.cut;
+      cut |= unsigned{ref.cut} << lane;
       any_back |= ref.back_facing;
       for (int k = 0; k < 3; ++k) at[k][lane] = records + ref.v[k] * stride;
     }
@@ -349,14 +353,15 @@ struct CutCorners {
 
   HWY_INLINE CutCorners(const Segment& segment, const BatchRefs& refs, const uint32_t* ids, int count) {
     memcpy(at, refs.at, sizeof at);
-    for (int lane = 0; lane < kSetupLanes; ++lane) {
+    for (unsigned todo = refs.cut; todo != 0; todo &= todo - 1) {
+      const int lane = __builtin_ctz(todo);
       const PrimitiveRef& ref = segment.primitives.data()[ids[lane < count ? lane : 0]];
-      if (ref.cut) Make(segment.cut_triangles.data()[ref.v[0]], lane);
+      Make(segment.plane_sources.data()[ref.v[2]], lane);
     }
   }
 
  private:
-  HWY_INLINE void Make(const CutTriangle& cut, int lane) {
+  HWY_INLINE void Make(const PlaneSource& cut, int lane) {
     const __m256i rest = _mm256_castpd_si256(_mm256_setr_pd(0, 0, 1, 0));  // 1/w is 1
     for (int k = 0; k < 3; ++k) {
       const uint64_t place = static_cast<uint32_t>(cut.x[k]) | uint64_t{static_cast<uint32_t>(cut.y[k])} << 32;
@@ -418,7 +423,6 @@ HWY_INLINE void PrefetchPoint(const Segment& segment, const ShadedVertices& vert
 
 HWY_INLINE void PrefetchCut(const Segment& segment, const PrimitiveRef& ref) {
   const auto* planes = reinterpret_cast<const char*>(segment.plane_sources.data() + ref.v[2]);
-  __builtin_prefetch(segment.cut_triangles.data() + ref.v[0]);
   for (int k = 0; k < 3; ++k) __builtin_prefetch(planes + k * 64);
 }
 
@@ -427,15 +431,10 @@ HWY_INLINE void PrefetchCorners(const Segment& segment, const BatchRefs& refs, c
                                 int count) {
   const PrimitiveRef* primitives = segment.primitives.data();
   for (size_t i = at + kRefsAhead; i < at + 2 * kRefsAhead && i < total; ++i) __builtin_prefetch(primitives + ids[i]);
-  if (HWY_LIKELY(!refs.any_cut)) {
-    for (int k = 0; k < 3; ++k)
-      for (int lane = 0; lane < kSetupLanes; ++lane) __builtin_prefetch(refs.at[k][lane]);
-    return;
-  }
-  for (int lane = 0; lane < count; ++lane) {
-    const PrimitiveRef& ref = primitives[ids[at + static_cast<size_t>(lane)]];
-    if (ref.cut) PrefetchCut(segment, ref);
-    else
-      for (int k = 0; k < 3; ++k) __builtin_prefetch(refs.at[k][lane]);
-  }
+  // Of what is cut, somewhere, too: a branch would cost more.
+  for (int k = 0; k < 3; ++k)
+    for (int lane = 0; lane < kSetupLanes; ++lane) __builtin_prefetch(refs.at[k][lane]);
+  const unsigned lanes = (1u << count) - 1;
+  for (unsigned todo = refs.cut & lanes; HWY_UNLIKELY(todo != 0); todo &= todo - 1)
+    PrefetchCut(segment, primitives[ids[at + static_cast<size_t>(__builtin_ctz(todo))]]);
 }

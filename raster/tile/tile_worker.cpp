@@ -10,6 +10,7 @@
 #include "raster/tile/cover_smooth.h"
 #include "raster/tile/coverage.h"
 #include "raster/tile/line_setup.h"
+#include "raster/tile/settled_planes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/tile/tile_worker.cpp"
@@ -530,6 +531,8 @@ void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer
               TileStatistics& statistics) {
   select_run_tile()(segments, framebuffer, tile, next, statistics);
 }
+
+SettlePlanesFunction settle_planes() { HALFSPACE_SELECT_FUNCTION(SettlePlanes) }
 
 SetUpLinesFunction set_up_lines() { HALFSPACE_SELECT_FUNCTION(SetUpLines) }
 
