@@ -344,17 +344,16 @@ void RunTileGroups(BlockContext& c) {
 }
 
 // Lines that follow each other, as far as the same kernel is theirs: those after them are left in `lines`.
-template <StageId... ids>
-void RunLineStages(BlockContext& c) {
-  using L = LineLanes;
+template <class L, StageId... ids>
+HWY_INLINE void RunListedLines(BlockContext& c, uint32_t kind_bits) {
   const std::byte *at = c.lines, *const end = c.lines_end;
-  const unsigned variant = LineAt(at).variant();
-  c.first_line_plane = LinePacket::first_plane(variant);
+  const uint32_t kind = LineAt(at).shape & kind_bits;
+  c.first_line_plane = LinePacket::first_plane(LineAt(at).variant());
   const OnceAll<L, ids...> once(c);
   LinePixels& list = *c.line_pixels;
   int count = 0, column = 0;
   uint64_t fragments = 0;
-  while (at < end && LineAt(at).variant() == variant) {
+  while (at < end && (LineAt(at).shape & kind_bits) == kind) {
     const LinePacket& line = LineAt(at);
     c.line_planes = line.planes();
     const LinePiece<DF> piece(line, column);
@@ -379,6 +378,16 @@ void RunLineStages(BlockContext& c) {
   StoreListed(list, count, c.color);
   c.lines = at;
   c.line_fragments += fragments;
+}
+
+template <StageId... ids>
+void RunLineStages(BlockContext& c) {
+  if constexpr ((TakesAlpha<typename BodyOf<ids>::Type> || ...)) {
+    constexpr uint32_t kKind = LinePacket::kVariantBits | LinePacket::kLevelAlpha;
+    if (LineAt(c.lines).alpha_is_level()) return RunListedLines<LineLanes<true>, ids...>(c, kKind);
+    return RunListedLines<LineLanes<false>, ids...>(c, kKind);
+  }
+  RunListedLines<LineLanes<false>, ids...>(c, LinePacket::kVariantBits);
 }
 
 // Stages that look at a fragment's depth say so.

@@ -18,10 +18,19 @@ struct LinePlane {
   }
 };
 
-// Here a group's pixel `i` counts in the list.
+// The same for a plane without slope.
+struct LineLevelPlane {
+  const BlockContext& c;
+  int table;
+  HWY_INLINE LineLevelPlane(const BlockContext& context, int, int at) : c(context), table(at) {}
+  HWY_INLINE VF At(int) const { return hn::Set(DF(), c.line_planes[3 * table]); }
+};
+
+// Here a group's pixel `i` counts in the list. kLevelAlpha: the plane of alpha has no slope.
+template <bool kLevelAlpha>
 struct LineLanes : PackedLanes {
   using Plane = LinePlane;
-  using PlaneOfAlpha = Plane;
+  using PlaneOfAlpha = std::conditional_t<kLevelAlpha, LineLevelPlane, LinePlane>;
   struct FlatColor {
     const BlockContext& c;
     HWY_INLINE explicit FlatColor(const BlockContext& context) : c(context) {}

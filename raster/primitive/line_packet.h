@@ -34,9 +34,12 @@ struct LinePacket {
 
   static constexpr uint32_t kSteep = 1u << 16;  // `shape`; below it, how many columns
   static constexpr int kVariantAt = 17, kBytesAt = 24;
+  static constexpr uint32_t kVariantBits = 3u << kVariantAt;
+  static constexpr uint32_t kLevelAlpha = 1u << 19;  // its plane has no slope
   int count() const { return static_cast<int>(shape & 0xffff); }
   bool steep() const { return (shape & kSteep) != 0; }
   unsigned variant() const { return shape >> kVariantAt & 3; }
+  bool alpha_is_level() const { return (shape & kLevelAlpha) != 0; }
   uint32_t bytes() const { return shape >> kBytesAt << 3; }
 
   // Those in float; of a draw that reads no depths.

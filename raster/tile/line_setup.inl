@@ -250,8 +250,17 @@ HWY_INLINE void StoreParts(const LineColumns& line, const LineCuts& cuts, VDi sh
   hn::Store(hn::VecFromMask(di, cuts.is_whole), di, out.whole + i);
 }
 
-// LinePacket::shape, but for the columns.
-HWY_INLINE VDi LineShape(const LineColumns& line, VDi variant, const LineGroup& out) {
+// Lanes whose alpha's plane has no slope.
+HWY_INLINE VDi AlphaIsLevel(const SetupBatch& s, int alpha, int i) {
+  const DDf df;
+  const auto zero = hn::Zero(df);
+  return hn::VecFromMask(DDi(),
+                         hn::RebindMask(DDi(), hn::And(hn::Eq(hn::Load(df, s.dfdx_f[alpha] + i), zero),
+                                                       hn::Eq(hn::Load(df, s.dfdy_f[alpha] + i), zero))));
+}
+
+// LinePacket::shape, but for the columns. `level`: -1 where alpha's plane has no slope.
+HWY_INLINE VDi LineShape(const LineColumns& line, VDi variant, VDi level, const LineGroup& out) {
   const DDi d;
   const auto bytes = [&](int first_plane) HWY_ATTR {
     const size_t all = line_packet_bytes(out.plane_end - first_plane, out.has_depth);
@@ -259,7 +268,8 @@ HWY_INLINE VDi LineShape(const LineColumns& line, VDi variant, const LineGroup& 
   };
   const auto affine = hn::Ne(hn::And(variant, hn::Set(d, kAffine)), hn::Zero(d));
   const VDi steep = hn::And(line.steep, hn::Set(d, static_cast<int32_t>(LinePacket::kSteep)));
-  return hn::Or(hn::Or(steep, hn::ShiftLeft<LinePacket::kVariantAt>(variant)),
+  const VDi alpha = hn::And(level, hn::Set(d, static_cast<int32_t>(LinePacket::kLevelAlpha)));
+  return hn::Or(hn::Or(hn::Or(steep, alpha), hn::ShiftLeft<LinePacket::kVariantAt>(variant)),
                 hn::ShiftLeft<LinePacket::kBytesAt>(hn::IfThenElse(affine, bytes(2), bytes(1))));
 }
 
@@ -309,8 +319,9 @@ void MakeLines(const DrawRecord& draw, const LineRecords& from, int count, LineG
     SetAnchor(v, i, middle, middle, planes);
     const VDi variant = hn::DemoteTo(DDi(), SetPlanes(in, layout, params, v, out.has_depth, i, planes));
     hn::Store(variant, DDi(), out.variant + i);
+    const VDi level = layout.color >= 0 ? AlphaIsLevel(planes, params.color_plane + 3, i) : hn::Zero(DDi());
     const LineCuts cuts(columns, StoreTiles(columns, draw.bounds, i, out));
-    StoreParts(columns, cuts, LineShape(columns, variant, out), planes, i, out);
+    StoreParts(columns, cuts, LineShape(columns, variant, level, out), planes, i, out);
     const bool affine = hn::AllTrue(d, hn::Eq(v.inv_w[0], v.inv_w[1]));
     StoreLinePlanes(planes, affine ? 2 : 1, i, out);
   }

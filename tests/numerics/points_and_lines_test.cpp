@@ -226,6 +226,35 @@ TEST(Lines, AreCutFromTileToTile) {
   }
 }
 
+// One kernel takes lines to memory, or their fragments wait for stages that run alone: the same bytes. Alpha
+// changes along all lines of some stretches, along none of others, and along every other one.
+TEST(Lines, AreTheSameFusedOrNot) {
+  constexpr int kSide = 192, kCount = 600;
+  for (const bool perspective : {false, true}) {
+    for (const bool flat : {false, true}) {
+      std::vector<Vertex> lines = mixed_lines(kCount, kSide, perspective);
+      for (size_t i = 0; i < lines.size(); i += 2) {
+        const size_t stretch = i / 100 % 3;
+        if (stretch == 0 || (stretch == 1 && i % 4 == 0)) lines[i].color.a = lines[i + 1].color.a;
+      }
+      DrawState state = plain_state(kSide, kSide);
+      state.raster.flat_shading = flat;
+      std::vector<uint8_t> first;
+      for (const std::string& isa : isa_levels()) {
+        const IsaScope scope(isa);
+        for (const bool fuse : {true, false}) {
+          Canvas canvas(kSide, kSide, 1, ColorFormat::rgba8, fuse);
+          canvas.clear();
+          canvas.draw(state, Primitive::lines, lines);
+          const std::vector<uint8_t> rgba = canvas.read().rgba;
+          if (first.empty()) first = rgba;
+          ASSERT_EQ(rgba, first) << isa << fuse << perspective << flat;
+        }
+      }
+    }
+  }
+}
+
 // Their packets, which are of different sizes, share a tile's memory.
 TEST(Lines, AndPointsByTurns) {
   constexpr int kSide = 128;
