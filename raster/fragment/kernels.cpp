@@ -328,11 +328,15 @@ HWY_INLINE void RunListedGroups(BlockContext& c) {
 
 // Of all primitives that the list is of.
 HWY_INLINE bool AlphaIsLevelInGroups(const BlockContext& c) {
-  if constexpr (!kGroupsOfMany) return AlphaIsLevel(c, c.lane);
-  bool level = true;
-  for (unsigned todo = c.group_lanes; todo != 0; todo &= todo - 1)
-    level &= AlphaIsLevel(c, __builtin_ctz(todo));
-  return level;
+#if HWY_TARGET == HWY_AVX3
+  const int alpha = c.params->color_plane + 3;
+  const __m256 dfdx = _mm256_load_ps(c.setup->dfdx_f[alpha]), dfdy = _mm256_load_ps(c.setup->dfdy_f[alpha]);
+  const __mmask8 level = _mm256_mask_cmp_ps_mask(_mm256_cmp_ps_mask(dfdx, _mm256_setzero_ps(), _CMP_EQ_OQ), dfdy,
+                                                 _mm256_setzero_ps(), _CMP_EQ_OQ);
+  return (c.group_lanes & ~unsigned{level}) == 0;
+#else
+  return AlphaIsLevel(c, c.lane);
+#endif
 }
 
 template <StageId... ids>
