@@ -144,6 +144,8 @@ struct alignas(64) TilePlanes {
   };
   Double wide[kMaxPlanes];
   uint32_t has_single, has_double;  // bits of planes
+  alignas(64) float lod_columns[kTileSize];  // LambdaAtW's of each column
+  bool has_lod_columns;
   int begin, end;                   // rows of the tile that are asked for
 };
 

@@ -88,6 +88,7 @@ void RunCoveredBlocks(TileContext& t, int lane, CoveredBlocks blocks, const Bloc
   const PipelineProgram& program = *t.program;
   if (!stages.whole.fills && __builtin_popcountll(blocks.All()) < kFewBlocks) return RunEach(t, lane, blocks);
   t.planes.has_single = t.planes.has_double = 0;
+  t.planes.has_lod_columns = false;
   t.planes.begin = __builtin_ctzll(blocks.All()) / 8 * kBlockSize;
   t.planes.end = (63 - __builtin_clzll(blocks.All())) / 8 * kBlockSize + kBlockSize;
   if (!program.reads_depth) return RunTileKernel(t, lane, blocks, stages.whole);

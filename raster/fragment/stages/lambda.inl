@@ -25,36 +25,55 @@ HWY_INLINE VF HalfLog2(VF rho2) {
 // With S and Q planes, d(S/Q)/dx = (dS/dx * Q - S * dQ/dx) / Q^2, and the numerator does not depend on x: it is the same
 // for all pixels of a row, and that of d/dy for all of a column. So rho^2 = max(row's, column's) / Q^4. In double since
 // the differences may cancel.
-template <class L>
-struct Gradients {
-  // Of each row of a row of blocks, of each column: texels squared * Q^4.
-  alignas(64) double along_x[kBlockSize] = {}, along_y[L::kSide] = {};
+struct CoordGradient {  // of s or t, in texels, times Q^2
+  double s, sx, sy, q = 1, qx = 0, qy = 0, size, twist;
 
   // divisor: the plane of Q, or less than 0 where that is 1. `unit`: what texels are counted in.
+  HWY_INLINE CoordGradient(const BlockContext& c, int axis, int divisor, double unit) {
+    const SetupBatch& setup = *c.setup;
+    const int k = c.lane, plane = c.params->tex_plane + axis;
+    size = c.params->lod_scale[axis] * unit;
+    s = setup.f0[plane][k], sx = setup.dfdx[plane][k], sy = setup.dfdy[plane][k];
+    if (divisor >= 0) q = setup.f0[divisor][k], qx = setup.dfdx[divisor][k], qy = setup.dfdy[divisor][k];
+    twist = sx * qy - qx * sy;
+  }
+  HWY_INLINE double AlongX(double dy) const { return (sx * q - qx * s + twist * dy) * size; }
+  HWY_INLINE double AlongY(double dx) const { return (sy * q - qy * s - twist * dx) * size; }
+};
+
+// Squares of the gradients along x of each row of a row of blocks; along y of each column. `out` is 0 before.
+template <class L>
+HWY_INLINE void SquareRows(const BlockContext& c, int divisor, double unit, double* out) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const CoordGradient gradient(c, axis, divisor, unit);
+    const double dy = c.dy + L::FirstRow(c);
+    for (int n = 0; n < kBlockSize; ++n) {
+      const double g = gradient.AlongX(dy + n);
+      out[n] += g * g;
+    }
+  }
+}
+template <class L>
+HWY_INLINE void SquareColumns(const BlockContext& c, int divisor, double unit, double* out) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const CoordGradient gradient(c, axis, divisor, unit);
+    for (int n = 0; n < L::kSide; ++n) {
+      const double g = gradient.AlongY(c.dx + n);
+      out[n] += g * g;
+    }
+  }
+}
+
+template <class L>
+struct Gradients {
+  alignas(64) double along_x[kBlockSize] = {}, along_y[L::kSide] = {};
+
   HWY_INLINE Gradients(const BlockContext& c, int divisor, double unit) {
-    for (int axis = 0; axis < 2; ++axis) AddAxis(c, axis, divisor, unit);
+    SquareRows<L>(c, divisor, unit, along_x);
+    SquareColumns<L>(c, divisor, unit, along_y);
   }
   static HWY_INLINE int Row(int i) { return L::Row(i) % kBlockSize; }
   HWY_INLINE double First() const { return along_x[0] > along_y[0] ? along_x[0] : along_y[0]; }
-
- private:
-  HWY_INLINE void AddAxis(const BlockContext& c, int axis, int divisor, double unit) {
-    const SetupBatch& setup = *c.setup;
-    const int k = c.lane, plane = c.params->tex_plane + axis;
-    const double size = c.params->lod_scale[axis] * unit;
-    const double s = setup.f0[plane][k], sx = setup.dfdx[plane][k], sy = setup.dfdy[plane][k];
-    double q = 1, qx = 0, qy = 0;
-    if (divisor >= 0) q = setup.f0[divisor][k], qx = setup.dfdx[divisor][k], qy = setup.dfdy[divisor][k];
-    const double twist = sx * qy - qx * sy, dy = c.dy + L::FirstRow(c);
-    for (int n = 0; n < kBlockSize; ++n) {
-      const double gx = (sx * q - qx * s + twist * (dy + n)) * size;
-      along_x[n] += gx * gx;
-    }
-    for (int n = 0; n < L::kSide; ++n) {
-      const double gy = (sy * q - qy * s - twist * (c.dx + n)) * size;
-      along_y[n] += gy * gy;
-    }
-  }
 };
 
 // By each pixel's own Q, in double.
@@ -104,47 +123,73 @@ struct Lambda {
   }
 };
 
+inline constexpr int whole_vectors(int count) { return count < kLanes ? kLanes : count; }
+
 // Where planes are in float, by way of w, which is there already: lambda = max(row's, column's) + 2 log2(w), with
 // logarithms taken once for a row or a column. 1/w is then within 1/191 of the true one (docs/numerics.md), lambda within
 // 1/66.
 struct LambdaAtW {
   static constexpr bool kKills = false, kPacks = false, kInTiles = true;
 
-  template <class L>
-  struct Once {
-    alignas(64) float along_x[kLanes < kBlockSize ? kBlockSize : kLanes], along_y[L::kSide < kLanes ? kLanes : L::kSide];
-    HWY_INLINE explicit Once(const BlockContext& c) {
-      // In units of the anchor's w to a power of two, so that floats can hold it.
+  // What texels are counted in: the anchor's w to a power of two, so that floats can hold it.
+  struct Unit {
+    double value;
+    float rise;  // what the logarithm is to be raised by
+    HWY_INLINE explicit Unit(const BlockContext& c) {
       uint64_t bits;
       __builtin_memcpy(&bits, &c.setup->f0[1][c.lane], sizeof bits);
       const int exponent = static_cast<int>(bits >> 52 & 2047) - 1023;
       bits = static_cast<uint64_t>(1023 - 2 * exponent) << 52;
-      double unit;
-      __builtin_memcpy(&unit, &bits, sizeof unit);
-      const Gradients<L> gradients(c, 1, unit);
-      const float rise = static_cast<float>(2 * exponent);
-      TakeLogarithms(gradients.along_x, kBlockSize, rise, along_x);
-      TakeLogarithms(gradients.along_y, L::kSide, rise, along_y);
+      __builtin_memcpy(&value, &bits, sizeof value);
+      rise = static_cast<float>(2 * exponent);
     }
+  };
 
-   private:
-    // To whole vectors.
-    static HWY_INLINE void TakeLogarithms(const double* squares, int count, float rise, float* out) {
-      const DF d;
-      int n = 0;
-      for (; n < count; ++n) out[n] = static_cast<float>(squares[n]);
-      for (; n % kLanes != 0; ++n) out[n] = 0;
-      for (n = 0; n < count; n += kLanes)
-        hn::Store(hn::Add(HalfLog2(hn::Load(d, out + n)), hn::Set(d, rise)), d, out + n);
+  // Of the columns of a tile only once for all its rows of blocks.
+  template <class L>
+  struct Once {
+    static constexpr bool kInTable = L::kSide == kTileSize;
+    alignas(64) float along_x[whole_vectors(kBlockSize)], own_columns[kInTable ? kLanes : whole_vectors(L::kSide)];
+    const float* table = nullptr;
+    HWY_INLINE const float* AlongY() const { return kInTable ? table : own_columns; }
+    HWY_INLINE explicit Once(const BlockContext& c) {
+      const Unit unit(c);
+      double rows[kBlockSize] = {};
+      SquareRows<L>(c, 1, unit.value, rows);
+      TakeLogarithms(rows, kBlockSize, unit.rise, along_x);
+      if constexpr (kInTable) {
+        if (!c.planes->has_lod_columns) FillColumns<L>(c, unit, c.planes->lod_columns);
+        c.planes->has_lod_columns = true;
+        table = c.planes->lod_columns;
+      } else {
+        FillColumns<L>(c, unit, own_columns);
+      }
     }
   };
 
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
     const VF longer =
-        hn::Max(FillRows(once.along_x + Gradients<L>::Row(i)), RepeatColumns(once.along_y + L::Column(i)));
+        hn::Max(FillRows(once.along_x + Gradients<L>::Row(i)), RepeatColumns(once.AlongY() + L::Column(i)));
     const VF log_w = Log2(v.slot[kW]);
     v.slot[kLambda] = hn::Add(longer, hn::Add(log_w, log_w));
+  }
+
+ private:
+  template <class L>
+  static HWY_NOINLINE void FillColumns(const BlockContext& c, const Unit& unit, float* out) {
+    alignas(64) double squares[L::kSide] = {};
+    SquareColumns<L>(c, 1, unit.value, squares);
+    TakeLogarithms(squares, L::kSide, unit.rise, out);
+  }
+  // To whole vectors.
+  static HWY_INLINE void TakeLogarithms(const double* squares, int count, float rise, float* out) {
+    const DF d;
+    int n = 0;
+    for (; n < count; ++n) out[n] = static_cast<float>(squares[n]);
+    for (; n % kLanes != 0; ++n) out[n] = 0;
+    for (n = 0; n < count; n += kLanes)
+      hn::Store(hn::Add(HalfLog2(hn::Load(d, out + n)), hn::Set(d, rise)), d, out + n);
   }
 };
 
