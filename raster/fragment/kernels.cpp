@@ -243,14 +243,15 @@ HWY_INLINE uint64_t RunRowGroup(BlockContext& c, const OnceAll<Worked, ids...>& 
   return live;
 }
 
-// Stages with a way of their own through a block that is live all over say so; alone in a kernel they take it.
+// Stages with a way of their own through a block that is live all over say so; alone in a kernel they take it, unless
+// they find that this block is not for it.
 template <class Body>
 concept RunsBlocks = requires { Body::kRunsBlocks; } && Body::kRunsBlocks;
 
-template <StageId id>
-HWY_INLINE void RunWholeBlock(BlockContext& c, int slots) {
-  BodyOf<id>::Type::RunBlock(
-      c, slots, [&](int i, Lanes& v) HWY_ATTR { LoadSlots<TakenSlots<id>()>(c, i, v); },
+template <class L, StageId id>
+HWY_INLINE bool RunWholeBlock(BlockContext& c, const OnceOf<L, id>& once, int slots) {
+  return BodyOf<id>::Type::RunBlock(
+      c, once.once, slots, [&](int i, Lanes& v) HWY_ATTR { LoadSlots<TakenSlots<id>()>(c, i, v); },
       [&](const Lanes& v, int i) HWY_ATTR { StoreSlots<LeftSlots<id>()>(v, i, c); });
 }
 
@@ -269,7 +270,7 @@ HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int
     }
   }
   if constexpr (sizeof...(ids) == 1 && (RunsBlocks<typename BodyOf<ids>::Type> && ...)) {
-    if (live == ~uint64_t{0}) return (RunWholeBlock<ids>(c, first % (kRowBlocks * kBlockPixels)), ...);
+    if (live == ~uint64_t{0} && (RunWholeBlock<L, ids>(c, once, first % (kRowBlocks * kBlockPixels)) && ...)) return;
   }
   uint64_t left = 0;
   for (int p = 0; p < kBlockPixels; p += kLanes) {

@@ -31,6 +31,7 @@ struct ChooseLevel {
 template <bool kBytes>
 struct SampleLevels {
   static constexpr bool kKills = false, kPacks = false, kInTiles = true, kOncePerBlock = true;
+  static constexpr bool kRunsBlocks = kFetchesAhead;
 
   // Where the lookups of groups read that fall on one level, or between the same two, and are linear: most
   // groups are such. Found ahead of all loads, so that lookups overlap.
@@ -96,7 +97,38 @@ struct SampleLevels {
     else LookUp<false>(group, once, first, v);
   }
 
+  // A block that is live all over and between levels all over: while a lookup's texels are filtered, the next one's are
+  // fetched.
+  template <class Places, class Load, class Store>
+  static HWY_INLINE bool RunBlock(const BlockContext& c, const Places& once, int first, Load load, Store store) {
+    for (const auto& group : once.groups)
+      if (!group.blends) return false;
+    if (IsStacked(c.params->levels[0])) LookUpBlock<true>(once, first, load, store);
+    else LookUpBlock<false>(once, first, load, store);
+    return true;
+  }
+
  private:
+  template <bool kStacked, class Places, class Load, class Store>
+  static HWY_INLINE void LookUpBlock(const Places& once, int first, Load load, Store store) {
+    Footprints texels = FetchPlaced<kStacked>(once.groups[0].level[0], once, 0, 0);
+    constexpr int kLast = kBlockPixels - kLanes;
+    for (int i = 0; i <= kLast; i += kLanes) {
+      const LevelRef* const level = once.groups[i / kLanes].level;
+      Lanes v;
+      load(first + i, v);
+      Footprints others;
+      LookPlaced(level[0], texels, once, 0, i, v,
+                 [&]() HWY_ATTR { others = FetchPlaced<kStacked>(level[1], once, 1, i); });
+      Lanes next = v;
+      LookPlaced(level[1], others, once, 1, i, next, [&]() HWY_ATTR {
+        const int n = i < kLast ? i + kLanes : kLast;
+        texels = FetchPlaced<kStacked>(once.groups[n / kLanes].level[0], once, 0, n);
+      });
+      Blend(next, v);
+      store(v, first + i);
+    }
+  }
   template <bool kStacked, class Group, class Places>
   static HWY_INLINE void LookUp(const Group& group, const Places& places, int i, Lanes& v) {
     const LevelRef* const level = group.level;

@@ -446,9 +446,10 @@ struct SampleLinear {
   }
   // A block that is live all over: while a group's texels are filtered, the next one's are fetched.
   template <class Load, class Store>
-  static HWY_INLINE void RunBlock(const BlockContext& c, int first, Load load, Store store) {
+  static HWY_INLINE bool RunBlock(const BlockContext& c, const NothingOnce&, int first, Load load, Store store) {
     if (IsStacked(c.params->levels[0])) FilterBlock<true>(c, first, load, store);
     else FilterBlock<false>(c, first, load, store);
+    return true;
   }
 
  private:
