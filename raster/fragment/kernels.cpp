@@ -255,6 +255,33 @@ HWY_INLINE bool RunWholeBlock(BlockContext& c, const OnceOf<L, id>& once, int sl
       [&](const Lanes& v, int i) HWY_ATTR { StoreSlots<LeftSlots<id>()>(v, i, c); });
 }
 
+// Stages that look up texels in two steps say so. Of a kernel that stores pixels, such a first one fetches while the group
+// before is worked on.
+template <class Body>
+concept FetchesTexels =
+    kFetchesAhead && requires(const BlockContext& c, Lanes& v) { Body::TakeTexels(Body::FetchTexels(c, 0), v); };
+template <StageId first, StageId... others>
+constexpr bool StartsByFetching() {
+  return FetchesTexels<typename BodyOf<first>::Type>;
+}
+
+template <class L, class Worked, StageId first, StageId... others>
+HWY_INLINE void RunFetchingAhead(BlockContext& c, const OnceAll<Worked, first, others...>& once, int begin) {
+  using First = typename BodyOf<first>::Type;
+  auto texels = First::FetchTexels(c, begin);
+#pragma GCC unroll 4
+  for (int p = 0; p < kBlockPixels; p += kLanes) {
+    const int i = begin + p;
+    const auto next = First::FetchTexels(c, p + kLanes < kBlockPixels ? i + kLanes : i);
+    Lanes v;
+    v.live = MaskFromBits(kGroupBits);
+    LoadSlots<TakenSlots<first, others...>()>(c, i % (kRowBlocks * kBlockPixels), v);
+    First::TakeTexels(texels, v);
+    (Step<L, Worked, others>(c, once, i, v) && ...);
+    texels = next;
+  }
+}
+
 // Where pixels are stored, a block that is live all over has code of its own.
 template <class L, StageId... ids>
 HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int block) {
@@ -262,6 +289,9 @@ HWY_INLINE void RunRowBlock(BlockContext& c, const OnceAll<L, ids...>& once, int
   const int first = block * kBlockPixels;
   const uint64_t live = c.row_live[block % kRowBlocks];
   if constexpr ((StoresPixels<typename BodyOf<ids>::Type> || ...) && !kKills) {
+    if constexpr (StartsByFetching<ids...>()) {
+      if (live == ~uint64_t{0}) return RunFetchingAhead<FullTileLanes<false>, L, ids...>(c, once, first);
+    }
     if (live == ~uint64_t{0}) {
 #pragma GCC unroll 4
       for (int p = 0; p < kBlockPixels; p += kLanes)

@@ -344,8 +344,12 @@ struct SampleNearest {
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    UnpackTexels(LoadTexels(LaneOffsets(SlotAt(c, kOffset, i)), c.params->levels[0].texels), v);
+    TakeTexels(FetchTexels(c, i), v);
   }
+  static HWY_INLINE VU FetchTexels(const BlockContext& c, int i) {
+    return LoadTexels(LaneOffsets(SlotAt(c, kOffset, i)), c.params->levels[0].texels);
+  }
+  static HWY_INLINE void TakeTexels(VU texels, Lanes& v) { UnpackTexels(texels, v); }
 };
 
 // Where a bilinear lookup reads: the offset of the lower left texel, and the weights of the right and the upper ones.
@@ -579,6 +583,12 @@ struct SampleLinearDraft {
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int i, Lanes& v) {
-    BilinearDraft(Fetch(c.params->levels[0], LaneOffsets(SlotAt(c, kOffset, i))), v.slot[kS], v.slot[kT], v);
+    TakeTexels(FetchTexels(c, i), v);
+  }
+  static HWY_INLINE Footprints FetchTexels(const BlockContext& c, int i) {
+    return Fetch(c.params->levels[0], LaneOffsets(SlotAt(c, kOffset, i)));
+  }
+  static HWY_INLINE void TakeTexels(const Footprints& texels, Lanes& v) {
+    BilinearDraft(texels, v.slot[kS], v.slot[kT], v);
   }
 };
