@@ -54,10 +54,16 @@ HWY_INLINE void QueuePiece(const LinePacket& line, const LinePiece<DLf>& piece, 
                            const uint32_t* color, int count, PixelQueue& queue) {
   const DLf f;
   const auto dx = piece.FromAnchorX(line), dy = piece.FromAnchorY(line);
-  const float* plane = line.planes();
-  for (int p = LinePacket::first_plane(line.variant()); p < plane_count; ++p, plane += 3) {
+  const int first = LinePacket::first_plane(line.variant());
+  const auto store = [&](int p) HWY_ATTR {
+    const float* plane = line.planes() + 3 * (p - first);
     const auto row = hn::Add(hn::Set(f, plane[0]), hn::Mul(hn::Set(f, plane[1]), dy));
     hn::StoreU(hn::Add(row, hn::Mul(hn::Set(f, plane[2]), dx)), f, queue.plane[p] + count);
+  };
+  if (HWY_LIKELY(first == 2 && plane_count == 6)) {  // a colour: without a loop
+    for (int p = 2; p < 6; ++p) store(p);
+  } else {
+    for (int p = first; p < plane_count; ++p) store(p);
   }
   hn::StoreU(piece.Offset(), DLi(), queue.offset + count);
   AskForPixels<kPixelLanes>(color, queue.offset + count);
