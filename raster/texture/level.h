@@ -37,8 +37,9 @@ struct TextureLevel {
   const uint32_t* base = nullptr;  // 64-byte aligned
   bool opaque = false;             // true: every texel a lookup can see, skirt included, has alpha 255
 
-  // Each texel of `base` but those of the last row, and after it the one above: a bilinear footprint is then 16 bytes on
-  // end. Of all levels of a view or of none; small textures that were looked up so have them, for twice their memory.
+  // Each texel of `base` but those of the last row, and after it the one above: a bilinear footprint is then
+  // 16 bytes on end. Of all levels of a view where the first has it; small textures that were looked up so do,
+  // for twice their memory.
   std::unique_ptr<uint32_t[], AlignedDelete> stacked;
 
   uint32_t texel(int i, int j) const { return base[ptrdiff_t(j + 1) * pitch + (i + 1)]; }

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "raster/isa.h"
 #include "raster/texture/level.h"
 
 namespace halfspace::raster {
@@ -196,10 +197,10 @@ constexpr size_t kMostStacked = size_t{256} * 256;
 
 size_t stacked_texels(const TextureLevel& level) { return 2 * size_t(level.pitch) * size_t(level.height + 1); }
 
-// By the first level, so that all of a texture's are or none: its kernels ask once for both levels of a lookup.
-bool wants_stacked(const TextureLevel& first, const Sampler& sampler) {
+// Where kernels load from what is stacked.
+bool wants_stacked(const TextureLevel& level, const Sampler& sampler) {
   const bool linear = sampler.mag == Filter::linear || sampler.min == Filter::linear;
-  return linear && size_t(first.width) * size_t(first.height) <= kMostStacked;
+  return linear && current_isa() == Isa::avx512 && size_t(level.width) * size_t(level.height) <= kMostStacked;
 }
 
 void stack_rows(TextureLevel& level) {
@@ -334,7 +335,9 @@ std::shared_ptr<const TextureView> Texture::view(const Sampler& sampler, int lev
     }
     const SkirtKey key = skirt_key(*level, sampler);
     const bool fills = !level->skirt_valid || !(level->skirt == key);
-    const bool stacks = level->stacked ? fills : wants_stacked(*impl_->levels[0], sampler);
+    // All levels are stacked if the first one is: kernels ask once for both levels of a lookup.
+    const bool wants = n == 0 ? wants_stacked(*level, sampler) : view->levels[0]->stacked != nullptr;
+    const bool stacks = level->stacked ? fills : wants;
     if ((fills || stacks) && !Impl::is_sole(level)) level = clone_level(*level);
     if (fills) fill_skirt(*level, key);
     if (stacks) stack_rows(*level);

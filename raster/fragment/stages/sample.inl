@@ -69,31 +69,19 @@ struct Footprints {
   TexelPairs low, high;
 };
 
-// Where levels keep texels beside those above them, a footprint is one load: half as many, and fewer to put together.
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_SSE4
+// Where levels keep texels beside those above them, a footprint is one load: half as many, and fewer to put together. With
+// vectors of 256 bits the shuffles cost more than the loads (tex_bilinear 1.06 times as long).
+#if HWY_TARGET == HWY_AVX3
 HWY_INLINE __m128 LoadStacked(const uint32_t* stacked, int64_t offset) {
   return _mm_loadu_ps(reinterpret_cast<const float*>(stacked + 2 * offset));
 }
-// Those of every fourth lane from `j` on.
+// Those of every fourth lane from `j` on. A masked broadcast leaves the units that shuffle alone.
 HWY_INLINE VU LoadEveryFourth(const LaneOffsets& offsets, int j, const uint32_t* stacked) {
-#if HWY_TARGET == HWY_SSE4
-  return VU{_mm_castps_si128(LoadStacked(stacked, offsets[j]))};
-#else
   const auto two = [&](int k) HWY_ATTR {
     const __m256 low = _mm256_castps128_ps256(LoadStacked(stacked, offsets[k]));
-    const __m128 high = LoadStacked(stacked, offsets[k + 4]);
-#if HWY_TARGET == HWY_AVX3
-    return _mm256_castps_si256(_mm256_mask_broadcast_f32x4(low, 0xf0, high));  // by a unit that does not shuffle
-#else
-    return _mm256_castps_si256(_mm256_insertf128_ps(low, high, 1));
-#endif
+    return _mm256_castps_si256(_mm256_mask_broadcast_f32x4(low, 0xf0, LoadStacked(stacked, offsets[k + 4])));
   };
-#if HWY_TARGET == HWY_AVX2
-  return VU{two(j)};
-#else
   return VU{_mm512_inserti64x4(_mm512_castsi256_si512(two(j)), two(j + 8), 1)};
-#endif
-#endif
 }
 template <class D>
 HWY_INLINE VU LowerOfBoth(D d, VU a, VU b) {
@@ -391,13 +379,13 @@ struct RepeatedLevel {
 
 template <bool kStacked>
 HWY_INLINE Footprints FetchFrom(const LevelRef& level, const LaneOffsets& offsets) {
-#if HWY_TARGET != HWY_SCALAR
+#if HWY_TARGET == HWY_AVX3
   if constexpr (kStacked) return LoadFootprints(offsets, level.stacked);
 #endif
   return LoadFootprints(offsets, level.texels, level.texels + level.pitch);
 }
 HWY_INLINE bool IsStacked(const LevelRef& level) {
-  return HWY_TARGET != HWY_SCALAR && HWY_LIKELY(level.stacked != nullptr);
+  return HWY_TARGET == HWY_AVX3 && HWY_LIKELY(level.stacked != nullptr);
 }
 HWY_INLINE Footprints Fetch(const LevelRef& level, const LaneOffsets& offsets) {
   return IsStacked(level) ? FetchFrom<true>(level, offsets) : FetchFrom<false>(level, offsets);
