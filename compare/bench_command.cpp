@@ -65,7 +65,7 @@ void add_scenes_command(CLI::App& bench_app, int& status) {
 }
 
 struct LimitsOptions {
-  int core = available_cores().empty() ? 0 : available_cores().back();
+  int core = core_to_use(-1);
   double seconds = 0.5;
   std::filesystem::path out = "out/bench";
 };

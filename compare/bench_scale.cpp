@@ -38,7 +38,10 @@ class ScaleBench {
     const Turns times = take_turns(*ours, *theirs, options_.rounds);
     const double edge = scale == "pixels" ? amount : 1024;
     const double color_buffer_mib = edge * edge * 4 / (1024 * 1024);
-    return {amount, times.first, times.second,
+    return {amount,
+            times.first,
+            times.second,
+            times.cpu_ratio,
             library_mib(our_memory, ours->order("memory"), color_buffer_mib),
             library_mib(their_memory, theirs->order("memory"), color_buffer_mib)};
   }
@@ -84,8 +87,8 @@ std::string to_text(const ScaleResult& result) {
     text += line;
     for (const ScalePoint& point : curve.points) {
       std::snprintf(line, sizeof line, "%12d %12.3f %12.3f %10.2f %12.1f %12.1f\n", point.amount,
-                    point.ours.cpu_ms.median, point.theirs.cpu_ms.median,
-                    point.theirs.cpu_ms.median / point.ours.cpu_ms.median, point.our_mib, point.their_mib);
+                    point.ours.cpu_ms.median, point.theirs.cpu_ms.median, point.ratio.median, point.our_mib,
+                    point.their_mib);
       text += line;
     }
   }
@@ -103,6 +106,7 @@ nlohmann::json to_json(const ScaleResult& result) {
       points.push_back({{"amount", point.amount},
                         {"ours", json_of(point.ours)},
                         {"theirs", json_of(point.theirs)},
+                        {"ratio", point.ratio.median},
                         {"our_mib", point.our_mib},
                         {"their_mib", point.their_mib}});
     curves.push_back({{"name", curve.name}, {"what", curve.what}, {"points", points}});

@@ -24,6 +24,7 @@ struct ScaleOptions {
 struct ScalePoint {
   int amount = 0;
   FrameTime ours, theirs;
+  Summary ratio;  // their process time / ours, of neighbours
   // What the library took at most while it drew, beyond the memory of the application, its colour buffer
   // included.
   double our_mib = 0, their_mib = 0;

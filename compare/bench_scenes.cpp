@@ -38,12 +38,6 @@ std::vector<int> chosen_scenes(const BenchOptions& options) {
   return all;
 }
 
-int chosen_core(const BenchOptions& options) {
-  if (options.core >= 0) return options.core;
-  const std::vector<int> cores = available_cores();
-  return cores.empty() ? 0 : cores.back();
-}
-
 SceneJob make_job(const BenchOptions& options, Renderer renderer, std::vector<int> scenes, int threads,
                   std::vector<int> cores) {
   SceneJob job;
@@ -67,11 +61,9 @@ BenchRow lower_is_better(std::string what, std::string unit, const std::vector<d
   row.unit = std::move(unit);
   row.ours = summarize(ours);
   row.theirs = summarize(theirs);
-  const Summary ratio = paired_ratio(ours, theirs);
-  row.ratio = ratio.median;
-  row.ratio_spread = ratio.spread;
+  row.ratio = paired_ratio(ours, theirs);
   row.target = target;
-  row.good = row.ratio <= target;
+  row.good = row.ratio.median <= target;
   return row;
 }
 
@@ -79,7 +71,7 @@ BenchRow lower_is_better(std::string what, std::string unit, const std::vector<d
 // slows both.
 void measure_pairs(const BenchOptions& options, Samples& ours, Samples& theirs, const Progress& progress) {
   const std::vector<int> scenes = chosen_scenes(options);
-  const std::vector<int> core{chosen_core(options)};
+  const std::vector<int> core{core_to_use(options.core)};
   for (int pair = 0; pair < options.pairs; ++pair) {
     progress("scenes, pair " + std::to_string(pair + 1) + " of " + std::to_string(options.pairs));
     ours.add(run_scenes(make_job(options, Renderer::ours, scenes, 1, core)));
@@ -107,23 +99,22 @@ BenchRow start_row(const BenchOptions& options, const Progress& progress) {
   const std::string what = "process start to first picture";
   std::vector<double> ours, theirs;
   measure_processes(
-      options, what, make_job(options, Renderer::ours, {1}, 1, {chosen_core(options)}),
+      options, what, make_job(options, Renderer::ours, {1}, 1, {core_to_use(options.core)}),
       [](const SceneResult& result) { return result.first_picture_ms; }, ours, theirs, progress);
   return lower_is_better(what, "ms", ours, theirs, kStartTarget);
 }
 
 BenchRow memory_row(const BenchOptions& options, int scene, const Progress& progress) {
   const std::string what = "peak memory, scene " + std::to_string(scene);
-  SceneJob job = make_job(options, Renderer::ours, {scene}, 1, {chosen_core(options)});
+  SceneJob job = make_job(options, Renderer::ours, {scene}, 1, {core_to_use(options.core)});
   std::vector<double> ours, theirs;
   measure_processes(
       options, what, job,
       [](const SceneResult& result) { return static_cast<double>(result.peak_kib) / 1024; }, ours, theirs,
       progress);
   BenchRow row = lower_is_better(what, "MB", ours, theirs, kMemoryTargetMb);
-  row.ratio = row.ours.highest;
-  row.ratio_spread = 0;
-  row.good = row.ratio <= kMemoryTargetMb;
+  row.ratio = summarize({row.ours.highest});
+  row.good = row.ours.highest <= kMemoryTargetMb;
   row.remark = "MB at most";
   return row;
 }
@@ -149,10 +140,8 @@ BenchRow thread_row(const BenchOptions& options, int scene, const Progress& prog
   }
   row.ours = summarize(two_threads.scene_ms[scene]);
   row.theirs = summarize(one_thread.scene_ms[scene]);
-  const Summary speed_up = paired_ratio(one_thread.scene_ms[scene], two_threads.scene_ms[scene]);
-  row.ratio = speed_up.median;
-  row.ratio_spread = speed_up.spread;
-  row.good = row.ratio >= kThreadsTarget;
+  row.ratio = paired_ratio(one_thread.scene_ms[scene], two_threads.scene_ms[scene]);
+  row.good = row.ratio.median >= kThreadsTarget;
   return row;
 }
 

@@ -27,8 +27,7 @@ struct BenchRow {
   std::string what;
   Summary ours, theirs;  // for thread scaling: two threads, one thread
   std::string unit;      // "ms", "MB"
-  double ratio = 0;  // ours / theirs, the median of the pairs; or ours alone for memory, speed-up for threads
-  double ratio_spread = 0;
+  Summary ratio;         // ours / theirs, of pairs; or ours alone for memory, speed-up for threads
   double target = 0;
   bool higher_is_better = false;
   std::optional<bool> good;  // none when there is nothing to judge, as with one core

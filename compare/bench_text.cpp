@@ -22,7 +22,7 @@ std::string text_row(const BenchRow& row) {
   char line[300];
   std::snprintf(line, sizeof line, "%-36s %7.2f %-2s %5.1f %% %7.2f %-2s %5.1f %%  %8.3f %s%7.3g  %s%s%s\n",
                 row.what.c_str(), row.ours.median, row.unit.c_str(), 100 * row.ours.spread, row.theirs.median,
-                row.unit.c_str(), 100 * row.theirs.spread, row.ratio, row.higher_is_better ? ">" : "<",
+                row.unit.c_str(), 100 * row.theirs.spread, row.ratio.median, row.higher_is_better ? ">" : "<",
                 row.target, mark(row).c_str(), row.remark.empty() ? "" : "  ", row.remark.c_str());
   return line;
 }
@@ -32,7 +32,7 @@ nlohmann::json json_of(const std::vector<BenchRow>& rows) {
   for (const BenchRow& row : rows) {
     nlohmann::json entry{{"what", row.what},          {"unit", row.unit},
                          {"ours", to_json(row.ours)}, {"theirs", to_json(row.theirs)},
-                         {"ratio", row.ratio},        {"ratio_spread", row.ratio_spread},
+                         {"ratio", row.ratio.median}, {"ratio_spread", row.ratio.spread},
                          {"target", row.target},      {"higher_is_better", row.higher_is_better},
                          {"remark", row.remark}};
     entry["good"] = row.good ? nlohmann::json(*row.good) : nlohmann::json(nullptr);
@@ -76,7 +76,7 @@ nlohmann::json to_json(const BenchResult& result) {
 std::string to_svg(const BenchResult& result) {
   BarChart chart{"Time of a frame at one thread, as a share of OSMesa's", "", 1, "OSMesa llvmpipe", {}};
   for (const BenchRow& row : result.scenes)
-    chart.bars.push_back({row.what, row.ratio, row.target, row.good.value_or(true)});
+    chart.bars.push_back({row.what, row.ratio.median, row.target, row.good.value_or(true)});
   return to_svg(chart);
 }
 

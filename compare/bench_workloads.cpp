@@ -79,8 +79,7 @@ class Bench {
     const Turns times = take_turns(*ours, *theirs, options_.rounds);
     row.ours = times.first;
     row.theirs = times.second;
-    row.ratio = times.cpu_ratio.median;
-    row.ratio_spread = times.cpu_ratio.spread;
+    row.ratio = times.cpu_ratio;
     row.target = options_.against ? 1 / (1 + options_.slower_percent / 100) : workload.target;
     if (limits_ && !workload.work.empty()) row.limit_ms = milliseconds(*limits_, workload.work);
     compare_pictures(workload, *ours, *theirs, row);
@@ -97,7 +96,7 @@ class Bench {
 
   static std::string short_text(const WorkloadRow& row) {
     char text[80];
-    std::snprintf(text, sizeof text, "%.2f of %.3g", row.ratio, row.target);
+    std::snprintf(text, sizeof text, "%.2f of %.3g", row.ratio.median, row.target);
     return text;
   }
 

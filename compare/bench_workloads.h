@@ -29,8 +29,7 @@ struct WorkloadRow {
   std::string name, what;
   bool draft = false;  // HALFSPACE_ACCURACY=draft
   FrameTime ours, theirs;
-  double ratio = 0;  // their process time / ours, the median of neighbours
-  double ratio_spread = 0;
+  Summary ratio;  // their process time / ours, of neighbours
   double target = 0;
   std::optional<Difference> pictures;
   bool same_picture = true;           // within the limit, or to the bit against another build
@@ -39,7 +38,7 @@ struct WorkloadRow {
   double core_distance_ns = 0;        // of those cores, before and after: the longer
   std::optional<double> limit_ms;     // what this core could do at best
 
-  bool fast() const { return ratio >= target; }
+  bool fast() const { return ratio.median >= target; }
   bool good() const { return fast() && same_picture; }
 };
 

@@ -45,8 +45,8 @@ std::string text_row(const WorkloadRow& row) {
   char line[300];
   std::snprintf(line, sizeof line, "%-25s %9.3f %4.1f %% %9.3f %4.1f %% %8.2f %7.3g  %-8s %13s %7s  %s\n",
                 label(row).c_str(), row.ours.cpu_ms.median, 100 * row.ours.cpu_ms.spread,
-                row.theirs.cpu_ms.median, 100 * row.theirs.cpu_ms.spread, row.ratio, row.target, verdict(row),
-                threads_text(row).c_str(), limit_text(row).c_str(), picture_text(row).c_str());
+                row.theirs.cpu_ms.median, 100 * row.theirs.cpu_ms.spread, row.ratio.median, row.target,
+                verdict(row), threads_text(row).c_str(), limit_text(row).c_str(), picture_text(row).c_str());
   return line;
 }
 
@@ -68,8 +68,8 @@ nlohmann::json json_of(const WorkloadRow& row) {
                        {"draft", row.draft},
                        {"ours", json_of(row.ours)},
                        {"theirs", json_of(row.theirs)},
-                       {"ratio", row.ratio},
-                       {"ratio_spread", row.ratio_spread},
+                       {"ratio", row.ratio.median},
+                       {"ratio_spread", row.ratio.spread},
                        {"target", row.target},
                        {"same_picture", row.same_picture},
                        {"good", row.good()}};
@@ -123,7 +123,7 @@ std::string to_svg(const WorkloadResult& result) {
                                            : "llvmpipe",
                  {}};
   for (const WorkloadRow& row : result.rows)
-    chart.bars.push_back({label(row), row.ratio, builds ? 0 : row.target, row.good()});
+    chart.bars.push_back({label(row), row.ratio.median, builds ? 0 : row.target, row.good()});
   return to_svg(chart);
 }
 

@@ -118,10 +118,4 @@ Turns take_turns(Contestant& first, Contestant& second, int rounds) {
           paired_ratio(second_times.wall_ms, first_times.wall_ms)};
 }
 
-int core_to_use(int wish) {
-  if (wish >= 0) return wish;
-  const std::vector<int> cores = available_cores();
-  return cores.empty() ? 0 : cores.back();
-}
-
 }  // namespace halfspace::compare

@@ -62,7 +62,4 @@ struct Turns {
 // slows both; each is first as often as second.
 Turns take_turns(Contestant& first, Contestant& second, int rounds);
 
-// `wish`, or the last core there is for -1.
-int core_to_use(int wish);
-
 }  // namespace halfspace::compare

@@ -54,7 +54,7 @@ class CostRun {
     job.scenes = group.arguments;
     job.width = options_.width;
     job.height = options_.height;
-    job.cores = {cost_core(options_)};
+    job.cores = {core_to_use(options_.core)};
     job.out = options_.out / what / group.program.name / folder_name(setting.name);
     return job;
   }

@@ -33,7 +33,7 @@ class ProgramRun {
     command.arguments = options_.program;
     command.environment = environment_of(setting, options_.folders, kLibrary);
     command.environment.push_back(also);
-    command.cores = {cost_core(options_)};
+    command.cores = {core_to_use(options_.core)};
     fs::create_directories(options_.out / folder);
     command.output = options_.out / folder / "log.txt";
     const ChildResult child = run_child(command);

@@ -107,10 +107,4 @@ size_t standard_index(const std::vector<Setting>& settings) {
   return static_cast<size_t>(found - settings.begin());
 }
 
-int cost_core(const CostOptions& options) {
-  if (options.core >= 0) return options.core;
-  const std::vector<int> cores = available_cores();
-  return cores.empty() ? 0 : cores.back();
-}
-
 }  // namespace halfspace::compare

@@ -25,6 +25,5 @@ std::vector<Setting> chosen_settings(const CostOptions& options);
 
 std::vector<std::string> paints_of(const SceneProgram& program);
 size_t standard_index(const std::vector<Setting>& settings);
-int cost_core(const CostOptions& options);
 
 }  // namespace halfspace::compare

@@ -105,7 +105,7 @@ class EffectsRun {
     job.frames = options_.frames;
     job.width = options_.width;
     job.height = options_.height;
-    job.cores = {cost_core(options_)};
+    job.cores = {core_to_use(options_.core)};
     job.out = options_.out / "effects";
     return job;
   }

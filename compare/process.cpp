@@ -131,4 +131,10 @@ std::vector<int> available_cores() {
   return cores;
 }
 
+int core_to_use(int wish) {
+  if (wish >= 0) return wish;
+  const std::vector<int> cores = available_cores();
+  return cores.empty() ? 0 : cores.back();
+}
+
 }  // namespace halfspace::compare

@@ -44,5 +44,7 @@ int shell_status(const StartError& error);
 
 // The cores this process may run on, lowest first.
 std::vector<int> available_cores();
+// `wish`, or the last of them for -1.
+int core_to_use(int wish);
 
 }  // namespace halfspace::compare

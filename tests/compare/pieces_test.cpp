@@ -164,6 +164,8 @@ TEST(Process, EnvironmentIsSetAndUnset) {
 TEST(Process, IsPinned) {
   const std::vector<int> cores = available_cores();
   ASSERT_FALSE(cores.empty());
+  EXPECT_EQ(core_to_use(-1), cores.back());
+  EXPECT_EQ(core_to_use(7), 7);
   const ChildCommand command{
       {"sh", "-c", "grep Cpus_allowed_list /proc/self/status"}, {}, {cores.back()}, {}};
   EXPECT_EQ(output_of(command), "Cpus_allowed_list:\t" + std::to_string(cores.back()) + "\n");
