@@ -93,7 +93,7 @@ struct SampleLevels {
     const int first = i % kBlockPixels;
     const auto& group = once.groups[first / kLanes];
     if (group.level == nullptr) return LookEach(*c.params, v);
-    if (IsStacked(*group.level)) LookUp<true>(group, once, first, v);
+    if (IsStacked(c.params->levels[0])) LookUp<true>(group, once, first, v);
     else LookUp<false>(group, once, first, v);
   }
 
