@@ -47,7 +47,11 @@ struct alignas(64) LineGroup {
     uint32_t bits = 0;
     for (int lane = 0; lane < count; ++lane) {
       uint32_t of_line = 0;
-      for (int k = 0; k < kParts; ++k) of_line |= (parts[k].count[lane] > 0 ? 1u : 0u) << k;
+      for (int k = 0; k < kParts; ++k) {
+        const auto* const columns =
+            parts[k].count;  // with -fsanitize=bounds g++ 12 takes count[lane] for uninitialized
+        of_line |= (columns[lane] > 0 ? 1u : 0u) << k;
+      }
       bits |= of_line << (kPlaces * lane);
     }
     return bits;
