@@ -93,8 +93,15 @@ Real evaluate(const PlaneSource& p, int k, int px, int py) {
   return Real(plane.f0) + Real(plane.dfdx) * dx + Real(plane.dfdy) * dy;
 }
 
+// Settled planes of depth are in steps of the depth buffer, and half a step higher.
+constexpr double kSteps = double(kDepthMax);
+template <class T>
+T depth_of(T steps) {
+  return (steps - T(0.5)) / T(kSteps);
+}
+
 void expect_planes(const PlaneSource& p, const Ray& ray, int px, int py) {
-  EXPECT_NEAR(double(evaluate(p, 0, px, py)), double(ray.z), 1e-9);
+  EXPECT_NEAR(double(depth_of(evaluate(p, 0, px, py))), double(ray.z), 1e-9);
   EXPECT_NEAR(double(evaluate(p, 1, px, py) / ray.inv_w), 1, 1e-7);
   EXPECT_NEAR(double(evaluate(p, 2, px, py)), double(ray.s_over_w),
               1e-9 * (1 + std::fabs(double(ray.inv_w)) * 100));
@@ -142,8 +149,9 @@ TEST(Clip, DepthRangeScalesTheDepthPlane) {
     f.state->viewport.depth_near = 0.75, f.state->viewport.depth_far = 0.25;
     f.run(Primitive::triangles);
     const Plane after = f.segment.plane_sources[0].planes[0];
-    EXPECT_NEAR(after.f0, 0.75 - 0.5 * before.f0, 1e-12 * (1 + std::fabs(before.f0)));
-    EXPECT_NEAR(after.dfdx, -0.5 * before.dfdx, 1e-12 * (1 + std::fabs(before.dfdx)));
+    const double depth = depth_of(before.f0), slope = before.dfdx / kSteps;
+    EXPECT_NEAR(depth_of(after.f0), 0.75 - 0.5 * depth, 1e-12 * (1 + std::fabs(depth)));
+    EXPECT_NEAR(after.dfdx / kSteps, -0.5 * slope, 1e-12 * (1 + std::fabs(slope)));
   }
 }
 
@@ -171,6 +179,7 @@ Cut cut_of(const Front& f) {
       cut.planes.back()[3 * k + 2] = s.planes[k].dfdy;
     }
   }
+  std::sort(cut.planes.begin(), cut.planes.end());
   return cut;
 }
 
@@ -269,8 +278,8 @@ TEST(Clip, LinesEndAtThePlanes) {
   EXPECT_EQ(cut[1].y[1], 160 * 256);
   const PlaneSource& far_cut = f.segment.plane_sources[cut[0].source];
   EXPECT_EQ(far_cut.provoking, 1u);
-  EXPECT_NEAR(far_cut.planes[0].f0, 0.5, 1e-12);
-  EXPECT_NEAR(far_cut.planes[0].dfdx * 32, 0.5, 1e-12);
+  EXPECT_NEAR(depth_of(far_cut.planes[0].f0), 0.5, 1e-12);
+  EXPECT_NEAR(far_cut.planes[0].dfdx / kSteps * 32, 0.5, 1e-12);
   EXPECT_EQ(far_cut.planes[0].dfdy, 0);
 }
 
@@ -287,6 +296,7 @@ TEST(Clip, GarbageStaysInBounds) {
       f.positions.push_back(rng() % 8 ? v : 0.0f);
     }
     for (int i = 0; i < 6; ++i) f.tex_coords.push_back(float(int(rng())));
+    f.sampler.wrap_s = Wrap::repeat;
     for (double& m : f.state->clip_from_object) m = n % 3 ? m : double(int(rng() % 5) - 2);
     for (Primitive mode : {Primitive::triangles, Primitive::line_loop, Primitive::points}) {
       f.run(mode);

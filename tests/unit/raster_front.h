@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "raster/api/texture.h"
+#include "raster/fragment/program.h"
 #include "raster/primitive/assembly.h"
 #include "raster/vertex/vertex_stage.h"
 
@@ -17,11 +19,14 @@ struct Front {
   std::vector<float> positions;   // x, y, z, w in turn
   std::vector<float> tex_coords;  // s, t in turn, or none
   std::vector<uint32_t> indices;  // or none
+  Sampler sampler;                // of the texture that there then is
   DrawRecord record;
+  PipelineProgram program;
   std::vector<uint64_t> storage;
   Segment segment;
 
   explicit Front(int width = 256, int height = 256) {
+    sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_edge;
     state->viewport = {0, 0, width, height, 0, 1};
     record.bounds = {0, 0, width, height};
   }
@@ -39,11 +44,17 @@ struct Front {
     batch.count = vertex_count();
     if (!tex_coords.empty()) {
       batch.tex_coord = {tex_coords.data(), 2 * sizeof(float), 2};
-      state->texture.view = std::make_shared<TextureView>();
+      const uint8_t white[4] = {255, 255, 255, 255};
+      Texture texture;
+      texture.define_level(0, 1, 1, 0, BaseFormat::rgba, white, sizeof white);
+      state->texture.view = texture.view(sampler, 1);
     }
     record.state = state;
     ShadedVertices& v = record.vertices;
     v.layout = choose_layout(*state, batch);
+    CodeCache codes;
+    build_program(*state, v.layout, ColorFormat::rgba8, true, codes, program);
+    record.program = &program;
     v.count = batch.count;
     storage.assign(v.layout.stride() / 8 * batch.count, 0);
     v.records = reinterpret_cast<std::byte*>(storage.data());
