@@ -1,5 +1,5 @@
-"""Writes the lists that halfspace_call_order (cmake/CallOrder.cmake) links by: the functions that the eight scenes call,
-each once, in the order of their first calls.
+"""Writes the lists that halfspace_call_order (cmake/CallOrder.cmake) links by: the functions that the eight scenes call
+when `halfspace bench scenes` runs them, each once, in the order of their first calls.
 
     call_order.py REF_APP_OSMESA LIBRARIES
 
@@ -50,7 +50,8 @@ def trace(program, library):
                     "startup-with-shell off", "stop-on-solib-events 1"):
         gdb.execute("set " + setting)
     gdb.execute(f"file {program}")
-    gdb.execute("set args --scene 1 2 3 4 5 6 7 8 --frames 2 --no-pictures --json /dev/null")
+    gdb.execute("set args --backend osmesa --size 1024x1024 --frames 2 --paint scene --json /dev/null --no-pictures "
+                "--scene 1 2 3 4 5 6 7 8")
     gdb.execute("starti")
     while load_address(library) is None:
         gdb.execute("continue")
@@ -66,7 +67,8 @@ def trace(program, library):
 def traced(program, library, level):
     out = pathlib.Path(f"called.{os.getpid()}")
     environment = dict(os.environ, CALLED=str(out), PROGRAM=program, LIBRARY=library, HALFSPACE_ISA=level,
-                       HALFSPACE_THREADS="1", LD_LIBRARY_PATH=str(pathlib.Path(library).parent))
+                       HALFSPACE_THREADS="1", HALFSPACE_ACCURACY="standard",
+                       LD_LIBRARY_PATH=str(pathlib.Path(library).parent))
     try:
         subprocess.run(["gdb", "-batch", "-nx", "-x", __file__], env=environment, check=True, stdout=subprocess.DEVNULL)
         return [line.split(" ") for line in out.read_text().splitlines()]
