@@ -32,6 +32,8 @@ namespace halfspace::raster {
 namespace {
 
 constexpr uint32_t kPartPrimitives = 4096;  // a larger draw is taken in parts
+// Points that are packets at once: of fewer in a part, each tile would have a few in every part.
+constexpr size_t kPartBytes = size_t{3} << 16;
 // With indices parts share vertices, and what two of them name is shaded twice: fewer parts, less of that.
 constexpr uint32_t kIndexedScale = 4;
 // With several threads draws are taken in larger parts, and more is kept back before it is executed: each
@@ -122,7 +124,8 @@ struct Device::Impl {
   uint32_t packet_scale() const {
     return has_few_threads() ? std::min(scale(), kFewThreadsScaleOfPackets) : scale();
   }
-  uint32_t part_scale(const DrawPacket& packet) const;
+  bool takes_points(const DrawPlan& plan, const DrawPacket& packet) const;
+  uint32_t part_primitives(const DrawPlan& plan, const DrawPacket& packet) const;
   // Whether a draw's vertices and primitives should be split over threads. Few threads had better stay with
   // the tiles that wait for them: what one of them shades has to come over to another's cache to be
   // assembled.
@@ -269,9 +272,17 @@ void Device::Impl::draw(const DrawPacket& packet) {
   draw_in_parts(packet, layout, shape, found);
 }
 
-uint32_t Device::Impl::part_scale(const DrawPacket& packet) const {
-  if (packet.primitive == Primitive::points || packet.primitive == Primitive::lines) return packet_scale();
-  return packet.indices != nullptr ? std::max(scale(), kIndexedScale) : scale();
+// Whether points go straight from the application's memory into packets.
+bool Device::Impl::takes_points(const DrawPlan& plan, const DrawPacket& packet) const {
+  return points_run_unshaded(plan, packet) && !notes && !meters;
+}
+
+uint32_t Device::Impl::part_primitives(const DrawPlan& plan, const DrawPacket& packet) const {
+  if (takes_points(plan, packet))
+    return static_cast<uint32_t>(kPartBytes / point_bytes(point_kind(plan.program))) * packet_scale();
+  if (packet.primitive == Primitive::points || packet.primitive == Primitive::lines)
+    return kPartPrimitives * packet_scale();
+  return kPartPrimitives * (packet.indices != nullptr ? std::max(scale(), kIndexedScale) : scale());
 }
 
 // Large draws of separate primitives go in parts, each with the vertices it names, so that what is pending
@@ -279,7 +290,7 @@ uint32_t Device::Impl::part_scale(const DrawPacket& packet) const {
 void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
                                  const DrawProgram& program) {
   const uint32_t each = separate_vertices(packet.primitive);
-  const uint32_t step = each * kPartPrimitives * part_scale(packet);
+  const uint32_t step = each * part_primitives({*packet.state, layout, shape, program.program}, packet);
   if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program);
   for (uint32_t first = 0; first < packet.index_count; first += step) {
     DrawPacket part = packet;
@@ -313,9 +324,10 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.stipple_start = packet.continues ? stipple : 0;
   record.vertices.layout = layout;
   const uint32_t primitives = primitive_count(packet.primitive, packet.index_count);
-  record.runs_points = points_run(record, packet.primitive) && !notes;
+  const DrawPlan plan{*packet.state, layout, record.shape, program};
+  record.runs_points = points_run(plan, packet.primitive) && !notes;
   record.runs_lines = lines_run(record, packet.primitive, primitives) && !notes;
-  if (points_run_unshaded(record, packet) && !meters)
+  if (takes_points(plan, packet))
     record.given_points = &packet.batch, record.state = packet.state;
   else
     shade(packet, record.vertices);

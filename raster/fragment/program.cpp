@@ -410,6 +410,15 @@ bool stores_one_value(const StageList& list) {
          list.ids[2] == write_rgba8;
 }
 
+// Whether all a list does from its stage `first` on is to store a colour.
+bool stores_color(const StageList& list, int first) {
+  using enum StageId;
+  if (list.count != first + 3) return false;
+  const StageId* ids = &list.ids[static_cast<size_t>(first)];
+  return (ids[0] == color_constant || ids[0] == color_affine_open) && ids[1] == round_rgba8 &&
+         ids[2] == write_rgba8;
+}
+
 // Whether no stage looks at what was in memory.
 bool overwrites(const StageList& list) {
   using enum StageId;
@@ -495,6 +504,7 @@ ProgramCode find_code(const CodeKey& key) {
                                      code.packed[variant]);
     if (lists_lines) code.lines[variant] = find_kernels(list.ids.data(), list.count).lines;
   }
+  code.stores_color = code.packs && key.fuse && stores_color(key.lists[kAffine], key.tests_depth ? 1 : 0);
   if (code.lines[0] == nullptr || code.lines[kAffine] == nullptr)
     code.lines[0] = code.lines[kAffine] = nullptr;
   return code;

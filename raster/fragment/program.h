@@ -72,6 +72,8 @@ struct ProgramCode {
   // What `packed` does, as one kernel for packets of lines (BlockContext::lines). Null: there is none.
   BlockFunction lines[2] = {};
   bool packs = false;
+  // All that `packed` does to fragments that are affine is to round their colour and to store it.
+  bool stores_color = false;
   BlockFunction stores_depth = nullptr;  // on whole blocks of a tile, the depth and nothing else
 };
 

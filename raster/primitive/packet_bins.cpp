@@ -1,6 +1,9 @@
 #include "raster/primitive/packet_bins.h"
 
 namespace halfspace::raster {
+namespace {
+constexpr size_t kAlignment = 8;  // of packets
+}
 
 uint32_t PacketBins::open(uint32_t tile) {
   PacketBin& bin = bins_[tile];
@@ -9,13 +12,15 @@ uint32_t PacketBins::open(uint32_t tile) {
     PacketRun& full = runs[piece.run - 1];
     full.bytes = static_cast<uint32_t>(bin.next - full.packets);
   }
+  // The draw before had packets of another size, maybe.
+  bin.next += -reinterpret_cast<uintptr_t>(bin.next) % kAlignment;
   if (static_cast<size_t>(piece.end - bin.next) < largest_) {
-    bin.next = memory_.allocate(kPiece * largest_);
-    piece.end = bin.next + kPiece * largest_;
+    bin.next = memory_.allocate(piece_bytes_);
+    piece.end = bin.next + piece_bytes_;
   }
   runs.push_back({bin.next, 0, tile});
   piece.run = runs.size();
-  // Whole packets, since whoever fills it may look only for the end. The draw before had packets of another size, maybe.
+  // Whole packets, since whoever fills it may look only for the end.
   const size_t room = static_cast<size_t>(piece.end - bin.next);
   bin.limit = bin.next + room / largest_ * largest_;
   return static_cast<uint32_t>(runs.size() - 1);

@@ -14,11 +14,13 @@ namespace halfspace::raster {
 // however they are spread.
 class PacketBins {
  public:
-  // Once a draw, before the first run is opened. `largest`: of its packets, in bytes.
-  void start_draw(size_t tile_count, size_t largest) {
+  // Once a draw, before the first run is opened. `largest`: of its packets, in bytes. `in_piece`: as many of
+  // them come in a piece of memory.
+  void start_draw(size_t tile_count, size_t largest, size_t in_piece) {
     if (bins_.size() != tile_count) bins_.resize(tile_count), pieces_.resize(tile_count);
     first_run_ = runs.size();
     largest_ = largest;
+    piece_bytes_ = in_piece * largest;
   }
   size_t largest() const { return largest_; }
   PacketBin* bins() { return bins_.data(); }
@@ -34,7 +36,6 @@ class PacketBins {
   std::vector<PacketRun> runs;
 
  private:
-  static constexpr size_t kPiece = 32;  // packets; measured best of 16, 32 and 64 for points
   struct Piece {
     std::byte* end = nullptr;
     size_t run = 0;  // the last, plus one
@@ -42,7 +43,7 @@ class PacketBins {
   std::vector<PacketBin> bins_;
   std::vector<Piece> pieces_;
   size_t first_run_ = 0;  // of the draw
-  size_t largest_ = 0;
+  size_t largest_ = 0, piece_bytes_ = 0;
   Arena memory_;
 };
 

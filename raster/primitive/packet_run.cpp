@@ -4,20 +4,25 @@
 
 namespace halfspace::raster {
 
-bool points_wait(const DrawRecord& draw) {
-  const VertexLayout& layout = draw.vertices.layout;
-  return draw.program->packs && layout.tex_coord < 0 && layout.fog < 0 && !draw.shape.smooth_points &&
-         draw.shape.point_size == 1 && draw.program->params.accuracy.interpolation != Level::exact;
+bool points_wait(const VertexLayout& layout, const ShapePlan& shape, const PipelineProgram& program) {
+  return program.packs && layout.tex_coord < 0 && layout.fog < 0 && !shape.smooth_points &&
+         shape.point_size == 1 && program.params.accuracy.interpolation != Level::exact;
 }
 
-bool points_run(const DrawRecord& draw, Primitive mode) {
-  return mode == Primitive::points && !draw.shape.general && points_wait(draw) &&
-         !draw.state->raster.flat_shading && draw.vertices.layout.back_color < 0;
+bool points_run(const DrawPlan& draw, Primitive mode) {
+  return mode == Primitive::points && !draw.shape.general &&
+         points_wait(draw.layout, draw.shape, draw.program) && !draw.state.raster.flat_shading &&
+         draw.layout.back_color < 0;
 }
 
-bool points_run_unshaded(const DrawRecord& draw, const DrawPacket& packet) {
-  return draw.runs_points && packet.indices == nullptr && !draw.state->lighting.enabled &&
-         draw.state->accuracy.transform != Level::exact;
+bool points_run_unshaded(const DrawPlan& draw, const DrawPacket& packet) {
+  return points_run(draw, packet.primitive) && packet.indices == nullptr && !draw.state.lighting.enabled &&
+         draw.state.accuracy.transform != Level::exact;
+}
+
+PointKind point_kind(const PipelineProgram& program) {
+  if (!program.stores_color) return PointKind::colored;
+  return program.reads_depth ? PointKind::tested_pixel : PointKind::pixel;
 }
 
 bool lines_wait(const DrawRecord& draw) {

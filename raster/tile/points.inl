@@ -26,6 +26,13 @@ bool RunWaitingPoint(TileContext& t, const Segment& segment, const DrawRecord& d
   return true;
 }
 
+template <class Packet>
+HWY_INLINE uint64_t PointBlocks(const Packet* points, uint32_t count) {
+  uint64_t blocks = 0;
+  for (uint32_t i = 0; i < count; ++i) blocks |= uint64_t{1} << (points[i].offset / kBlockPixels);
+  return blocks;
+}
+
 // A point of a run, as RunWaitingPoint does it. The product by 255 is rounded once, as it is there, since in
 // double it would be exact.
 HWY_INLINE void RunPacket(TileContext& t, const PointPacket& point, bool colored) {
@@ -98,13 +105,55 @@ void StreamPoints(TileContext& t, const PointPacket* points, uint32_t count, boo
 
 #endif
 
-void RunPoints(TileContext& t, const Segment& segment, const DrawRecord& draw, const PrimitiveRef& ref) {
-  const PacketRun& run = segment.packets.runs.data()[ref.v[0]];
-  const auto* points = reinterpret_cast<const PointPacket*>(run.packets);
-  const uint32_t count = run.bytes / sizeof *points;
-  const bool colored = draw.vertices.layout.color >= 0;
+void RunColoredPoints(TileContext& t, const PointPacket* points, uint32_t count, bool colored) {
 #if HWY_TARGET != HWY_SCALAR
   if (!t.program->reads_depth) return StreamPoints(t, points, count, colored);
 #endif
   for (uint32_t i = 0; i < count; ++i) RunPacket(t, points[i], colored);
+}
+
+// Points that are pixels.
+void StorePixels(TileContext& t, const PixelPoint* points, uint32_t count) {
+  if (t.state->color[t.program->plane].is_clear != 0) PrepareWindow(t, PointBlocks(points, count));
+  auto* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
+  for (uint32_t i = 0; i < count; ++i) __builtin_prefetch(color + points[i].offset, 1);
+  for (uint32_t i = 0; i < count; ++i) color[points[i].offset] = points[i].pixel;
+}
+
+// With a depth test, whose outcome nobody could guess: all is stored, though it be what was there.
+void TestPixels(TileContext& t, const TestedPixelPoint* points, uint32_t count) {
+  PrepareWindow(t, PointBlocks(points, count));
+  auto* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
+  uint32_t* depth = t.framebuffer->depth_tile(t.tile);
+  const DepthState& test = t.program->depth;
+  for (uint32_t i = 0; i < count; ++i) __builtin_prefetch(color + points[i].offset, 1), __builtin_prefetch(depth + points[i].offset, 1);
+  for (uint32_t i = 0; i < count; ++i) {
+    const TestedPixelPoint& point = points[i];
+    const uint32_t old = depth[point.offset];
+    const bool pass = PassesDepthAt(test.func, point.depth, static_cast<int32_t>(old));
+    depth[point.offset] = pass && test.write ? static_cast<uint32_t>(point.depth) : old;
+    color[point.offset] = pass ? point.pixel : color[point.offset];
+  }
+}
+
+// Those of a draw, from ids[at] on, up to the primitive `end`. Gives where it stopped.
+size_t RunPoints(TileContext& t, const Segment& segment, const DrawRecord& draw, const uint32_t* ids, size_t at,
+                 size_t total, uint32_t end) {
+  const PointKind kind = point_kind(*draw.program);
+  const PrimitiveRef* refs = segment.primitives.data();
+  const PacketRun* runs = segment.packets.runs.data();
+  const size_t bytes = point_bytes(kind);
+  if (kind != PointKind::colored) FlushPacked(t);
+  for (; at < total && ids[at] < end; ++at) {
+    const PacketRun& run = runs[refs[ids[at]].v[0]];
+    const auto count = static_cast<uint32_t>(run.bytes / bytes);
+    if (kind == PointKind::colored) {
+      RunColoredPoints(t, reinterpret_cast<const PointPacket*>(run.packets), count, draw.vertices.layout.color >= 0);
+      continue;
+    }
+    t.statistics->fragments += count;
+    if (kind == PointKind::pixel) StorePixels(t, reinterpret_cast<const PixelPoint*>(run.packets), count);
+    else TestPixels(t, reinterpret_cast<const TestedPixelPoint*>(run.packets), count);
+  }
+  return at;
 }

@@ -335,7 +335,7 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
   t.plane_count = 2 + draw.vertices.layout.attribute_count;
   t.flat_color = draw.vertices.layout.color >= 0 && draw.program->flat_shading;
   t.projective = draw.vertices.layout.projective;
-  t.packs_points = t.notes == nullptr && points_wait(draw);
+  t.packs_points = t.notes == nullptr && points_wait(draw.vertices.layout, draw.shape, *draw.program);
 }
 
 // Triangles in lanes [first, end) of the batch.
@@ -440,7 +440,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
       continue;
     }
     if (record.runs_points) {
-      RunPoints(t, segment, record, segment.primitives.data()[ids[at++]]);
+      at = RunPoints(t, segment, record, ids, at, total, end);
       continue;
     }
     if (record.runs_lines) {

@@ -68,6 +68,8 @@ struct PointJob {
   Rect bounds;  // in the framebuffer; points outside are not drawn
   int tiles_x;
   double depth_steps;  // the greatest depth; 0: nobody asks for depths
+  PointKind kind;
+  uint32_t constant_pixel;  // of all points, where their colours do not vary
   PacketBin* bins;     // of each tile
   void (*open_run)(void* owner, uint32_t tile);
   void* owner;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 #include "raster/isa.h"
 #include "raster/vertex/effect_columns.h"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -97,6 +98,62 @@ TEST(Points, ManyComeInTheirOrder) {
         state.raster.flat_shading = false;
         expect_many(state, constant_color, threads);
       }
+    }
+  }
+}
+
+// Colours of all kinds, some of them none.
+std::vector<Vertex> points_of_any_color(size_t count, int side) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN(), kMost = std::numeric_limits<float>::max();
+  constexpr std::array<float, 6> kSpecial{kNone, kMost, -kMost, 1e10f, -0.0f, 1};
+  Random random(29);
+  const auto channel = [&] {
+    switch (random.integer(0, 3)) {
+      case 0:
+        return kSpecial[size_t(random.integer(0, 5))];
+      case 1:
+        return (float(random.integer(0, 255)) + 0.5f) / 255;
+      default:
+        return random.real(-0.2f, 1.2f);
+    }
+  };
+  std::vector<Vertex> points;
+  for (size_t i = 0; i < count; ++i) {
+    const float r = channel(), g = channel(), b = channel(), a = channel();
+    points.push_back(snapped_vertex(random.integer(-256, 256 * side), random.integer(-256, 256 * side), side,
+                                    float(random.integer(-5, 5)) / 4, {r, g, b, a}));
+  }
+  return points;
+}
+
+// Where a fragment is its point's colour, packets hold pixels. Without fused kernels they do not.
+TEST(Points, ColorsAreRoundedAsByTheirStages) {
+  constexpr int kSide = 128;
+  const std::vector<Vertex> points = points_of_any_color(20000, kSide);
+  std::vector<uint32_t> indices;
+  for (uint32_t i = 0; i < points.size(); ++i) indices.push_back(i * 7 % uint32_t(points.size()));
+  constexpr std::array<CompareFunc, 5> kFuncs{CompareFunc::less, CompareFunc::equal,
+                                              CompareFunc::greater_equal, CompareFunc::not_equal,
+                                              CompareFunc::always};
+  for (const std::string& isa : isa_levels()) {
+    const IsaScope scope(isa);
+    for (int i = 0; i < 4 * int(kFuncs.size()); ++i) {
+      DrawState state = plain_state(kSide, kSide);
+      state.raster.scissor_test = true;
+      state.raster.scissor = {3, 9, 120, 101};
+      state.depth.test = i % 4 != 3;
+      state.depth.write = i % 2 == 0;
+      state.depth.func = kFuncs[size_t(i / 4)];
+      Picture pictures[2];
+      for (const bool fuse : {false, true}) {
+        Canvas canvas(kSide, kSide, 1 + i % 2, ColorFormat::rgba8, fuse);
+        canvas.clear({0.3f, 0.2f, 0.1f, 1}, 0.625);
+        canvas.draw(state, Primitive::points, points,
+                    i % 3 == 0 ? std::span<const uint32_t>(indices) : std::span<const uint32_t>());
+        canvas.draw_plain(state, Primitive::points, std::span(points).first(50), {0.7f, 0.3f, 0.5f, 0.1f});
+        pictures[fuse ? 1 : 0] = canvas.read();
+      }
+      ASSERT_EQ(first_difference(pictures[0], pictures[1]), "") << isa << ", " << i;
     }
   }
 }
