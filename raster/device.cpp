@@ -115,6 +115,7 @@ struct Device::Impl {
   const DrawProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout) {
     return filling->program_for(state, layout, target->format, fuse);
   }
+  void make_room(uint32_t count, ShadedVertices& vertices);
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
   bool has_few_threads() const { return pool.size() <= kFewThreads; }
   uint32_t scale() const {
@@ -161,16 +162,19 @@ void Device::Impl::run_split(uint32_t count, const Task& task) {
   for (uint32_t i = 0; i < count; ++i) task(i);
 }
 
-void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
-  const VertexBatch& batch = packet.batch;
-  vertices.count = batch.count;
-  vertices.records = filling->arena.allocate(batch.count * vertices.layout.stride());
+void Device::Impl::make_room(uint32_t count, ShadedVertices& vertices) {
+  vertices.count = count;
+  vertices.records = filling->arena.allocate(count * vertices.layout.stride());
   vertices.outcodes.swap(outcodes);
   vertices.clip.swap(clip);
-  if (vertices.outcodes.size() < batch.count) {
-    vertices.outcodes.resize(batch.count);
-    vertices.clip.resize(batch.count);
+  if (vertices.outcodes.size() < count) {
+    vertices.outcodes.resize(count);
+    vertices.clip.resize(count);
   }
+}
+
+void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
+  const VertexBatch& batch = packet.batch;
   const Shares shares = even_shares(batch.count, (batch.count - 1) / kVerticesPerTask + 1, kShadedAtOnce);
   const auto start = meters ? Clock::now() : Clock::time_point();
   run_split(shares.count, [&](uint32_t i) {
@@ -327,19 +331,25 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   const DrawPlan plan{*packet.state, layout, record.shape, program};
   record.runs_points = points_run(plan, packet.primitive) && !notes;
   record.runs_lines = lines_run(record, packet.primitive, primitives) && !notes;
-  if (takes_points(plan, packet))
-    record.given_points = &packet.batch, record.state = packet.state;
-  else
+  if (takes_points(plan, packet)) {
+    record.given_vertices = &packet.batch, record.state = packet.state;
+  } else if (record.runs_lines && lines_run_unshaded(plan, packet) && !meters) {
+    make_room(packet.batch.count, record.vertices);
+    record.given_vertices = &packet.batch, record.unshaded = &record.vertices, record.state = packet.state;
+  } else {
+    make_room(packet.batch.count, record.vertices);
     shade(packet, record.vertices);
+  }
   find_clip_distances(packet, record);
   const bool refers = assemble_draw(record, packet, primitives);
   // Packets bring along all that is needed.
-  if ((record.runs_points && record.given_points == nullptr) || (record.runs_lines && !refers))
+  if ((record.runs_points && record.given_vertices == nullptr) || (record.runs_lines && !refers))
     filling->arena.take_back(size_t{packet.batch.count} * layout.stride());
   // Clip coordinates and outcodes have done their work; the next draw takes their memory.
   record.vertices.outcodes.swap(outcodes);
   record.vertices.clip.swap(clip);
-  record.given_points = nullptr;
+  if (record.given_vertices != nullptr) record.state = found.state_after_vertices(packet.state);
+  record.given_vertices = nullptr, record.unshaded = nullptr;
   record.clip_distances = nullptr, record.clip_codes = record.edge_flags = nullptr;
   execute_if_full();
 }

@@ -258,12 +258,27 @@ class Assembler {
         line_packet_bytes(1 + draw_.vertices.layout.attribute_count, draw_.program->reads_depth);
     constexpr size_t kInPiece = 32;
     segment_.packets.start_draw(segment_.bins.size(), largest, kInPiece);
+    if (draw_.given_vertices != nullptr)
+      run_given_lines(first, count);
+    else
+      run_shaded_lines(mode, first, count);
+    segment_.packet_bytes += segment_.packets.finish_draw();
+  }
+
+  struct WaitingLines {
+    LineGroup group;
+    uint32_t ends[2 * kSetupLanes];
+    int count = 0;
+  };
+
+  void run_shaded_lines(Primitive mode, uint32_t first, uint32_t count) {
     const SetUpLinesFunction make_group = set_up_lines();
     WaitingLines lines;
     const auto set_up = [&] {
       if (lines.count == 0) return;
       make_group(draw_, lines.ends, lines.count, lines.group);
-      bin_packets(lines);
+      bin_packets(lines.group, lines.count,
+                  [&](int lane) { line(lines.ends[2 * lane], lines.ends[2 * lane + 1]); });
       lines.count = 0;
     };
     for (uint32_t k = first; k < first + count; ++k) {
@@ -278,33 +293,67 @@ class Assembler {
       if (++lines.count == kSetupLanes) set_up();
     }
     set_up();
-    segment_.packet_bytes += segment_.packets.finish_draw();
   }
 
-  struct WaitingLines {
+  // Separate lines straight from the application's memory, as far as they are not cut.
+  void run_given_lines(uint32_t first, uint32_t count) {
+    const LineEndShader shader(*draw_.state, *draw_.given_vertices, draw_.vertices.layout);
+    const SetUpLineColumnsFunction make_group = set_up_line_columns();
+    EndColumns ends;
     LineGroup group;
-    uint32_t ends[2 * kSetupLanes];
-    int count = 0;
-  };
+    for (uint32_t done = 0; done < count; done += EndColumns::kMost) {
+      const uint32_t lines = std::min(count - done, EndColumns::kMost);
+      shader.shade(2 * (first + done), lines, ends);
+      for (uint32_t at = 0; at < lines; at += kSetupLanes) {
+        const uint32_t line_at = first + done + at;
+        const int n = int(std::min(lines - at, uint32_t{kSetupLanes}));
+        if (!ends.all_inside && any_is_special(ends, at, n)) [[unlikely]] {
+          shade_lines(line_at, uint32_t(n));
+          run_shaded_lines(Primitive::lines, line_at, uint32_t(n));
+          continue;
+        }
+        make_group(draw_, ends, at, n, group);
+        bin_packets(group, n, [&](int lane) {
+          shade_lines(line_at, uint32_t(n));
+          line(2 * (line_at + uint32_t(lane)), 2 * (line_at + uint32_t(lane)) + 1);
+        });
+      }
+    }
+  }
 
-  void bin_packets(const WaitingLines& lines) {
-    const LineGroup& group = lines.group;
-    if (!group.has_special(lines.count)) {
-      for (uint32_t todo = group.parts_drawn(lines.count); todo != 0; todo &= todo - 1)
+  // Of lines from the `first` on: whether any is cut, or not to be seen.
+  static bool any_is_special(const EndColumns& ends, uint32_t first, int count) {
+    uint64_t special = 0;
+    for (uint32_t i = first; i < first + uint32_t(count); ++i) {
+      const uint64_t o0 = ends.end[0].outcode[i], o1 = ends.end[1].outcode[i];
+      special |= (o0 & o1) | ((o0 | o1) & (kOutNotFinite | kOutCutMask));
+    }
+    return special != 0;
+  }
+
+  void shade_lines(uint32_t first, uint32_t count) {
+    shade_vertices(*draw_.state, *draw_.given_vertices, 2 * first, 2 * count, *draw_.unshaded);
+  }
+
+  // double_line(lane): draws a line whose planes have to be double.
+  template <class DoubleLine>
+  void bin_packets(const LineGroup& group, int count, DoubleLine double_line) {
+    if (!group.has_special(count)) {
+      for (uint32_t todo = group.parts_drawn(count); todo != 0; todo &= todo - 1)
         bin_part(group, std::countr_zero(todo));
       return;
     }
-    for (int lane = 0; lane < lines.count; ++lane) {
+    for (int lane = 0; lane < count; ++lane) {
       if (!group.is_drawn(lane)) continue;
       if (group.needs_double(lane)) {
-        line(lines.ends[2 * lane], lines.ends[2 * lane + 1]);
+        double_line(lane);
         continue;
       }
       if (group.whole[lane] != 0) {
         bin_whole(group, lane);
         continue;
       }
-      const uint32_t parts = group.parts_drawn(lines.count) & LineGroup::parts_of(lane);
+      const uint32_t parts = group.parts_drawn(count) & LineGroup::parts_of(lane);
       for (uint32_t todo = parts; todo != 0; todo &= todo - 1) bin_part(group, std::countr_zero(todo));
     }
   }
@@ -351,8 +400,8 @@ class Assembler {
     constexpr size_t kPieceBytes = 768;  // measured best of 384, 768 and 1536
     const size_t bytes = point_bytes(point_kind(*draw_.program));
     segment_.packets.start_draw(segment_.bins.size(), bytes, kPieceBytes / bytes);
-    if (draw_.given_points != nullptr)
-      place_points(*draw_.state, *draw_.given_points, draw_.vertices.layout, point_job(), first, count);
+    if (draw_.given_vertices != nullptr)
+      place_points(*draw_.state, *draw_.given_vertices, draw_.vertices.layout, point_job(), first, count);
     else
       run_shaded_points(first, count);
     segment_.packet_bytes += segment_.packets.finish_draw();

@@ -38,4 +38,9 @@ bool lines_run(const DrawRecord& draw, Primitive mode, uint32_t count) {
   return lines && count >= kFew && !draw.shape.general && lines_wait(draw);
 }
 
+bool lines_run_unshaded(const DrawPlan& draw, const DrawPacket& packet) {
+  return packet.primitive == Primitive::lines && packet.indices == nullptr && !draw.state.lighting.enabled &&
+         draw.state.accuracy.transform != Level::exact && draw.layout.tex_coord < 0 && draw.layout.fog < 0;
+}
+
 }  // namespace halfspace::raster

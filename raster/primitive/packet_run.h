@@ -35,4 +35,7 @@ bool lines_wait(const DrawRecord& draw);
 // Whether a draw's lines are binned as runs, set up once for all tiles. Of a few lines it would save little.
 bool lines_run(const DrawRecord& draw, Primitive mode, uint32_t count);
 
+// Whether runs are all that such lines' vertices are for, but of lines that are cut or take doubles.
+bool lines_run_unshaded(const DrawPlan& draw, const DrawPacket& packet);
+
 }  // namespace halfspace::raster

@@ -74,9 +74,10 @@ struct DrawRecord {
   uint32_t stipple_start = 0;  // where the first line's stipple starts
   bool runs_points = false;  // its points are binned as runs
   bool runs_lines = false;   // its lines are, as far as they are not cut and floats will do
-  // Where that is all its vertices are for: what they are made from, until the draw is assembled. There are
-  // no records.
-  const VertexBatch* given_points = nullptr;
+  // What vertices are made from, until the draw is assembled, where runs are all that they are for. Of points
+  // there are no records; of lines, those that somebody else asks for are made then, at `unshaded`.
+  const VertexBatch* given_vertices = nullptr;
+  ShadedVertices* unshaded = nullptr;
   const PixelImage* image = nullptr;  // fragments come from it; there are no vertices
 };
 

@@ -8,6 +8,7 @@
 #include "raster/primitive/line_packet.h"
 #include "raster/primitive/segment.h"
 #include "raster/tile/setup_batch.h"
+#include "raster/vertex/end_columns.h"
 
 namespace halfspace::raster {
 
@@ -89,5 +90,10 @@ struct alignas(64) LineGroup {
 // ends: two vertices for each of `count` <= kSetupLanes lines of the draw, none of which is cut.
 using SetUpLinesFunction = void (*)(const DrawRecord& draw, const uint32_t* ends, int count, LineGroup& out);
 SetUpLinesFunction set_up_lines();
+
+// The same of lines that are columns, from the `first` on, a multiple of kSetupLanes.
+using SetUpLineColumnsFunction = void (*)(const DrawRecord& draw, const EndColumns& ends, uint32_t first,
+                                          int count, LineGroup& out);
+SetUpLineColumnsFunction set_up_line_columns();
 
 }  // namespace halfspace::raster

@@ -4,9 +4,9 @@
 
 // Records of both ends of each line, and of the vertex that gives its flat colour.
 #if HALFSPACE_DIRECT_CORNERS
-using LineRecords = DirectCorners;
+using LineCorners = DirectCorners;
 #else
-struct LineRecords {
+struct LineCorners {
   const unsigned char* const (&at)[3][kSetupLanes];
 
   HWY_INLINE void Heads(int k, int i, VD out[4]) const {
@@ -26,6 +26,36 @@ struct LineRecords {
 // Both ends of each line, in the order they were given in.
 struct LineEndVectors {
   VDi x[2], y[2];
+};
+struct LineEndValues {
+  VD z[2], inv_w[2];
+  hn::Vec<DDf> rest_x[2], rest_y[2];
+};
+
+// Lines whose ends are columns, from the `first` of them on.
+struct LineColumnsAt {
+  const EndColumns& columns;
+  uint32_t first;
+
+  HWY_INLINE void Ends(int i, LineEndVectors& ends, LineEndValues& values) const {
+    for (int k = 0; k < 2; ++k) {
+      const EndColumns::End& end = columns.end[k];
+      const size_t at = size_t{first} + static_cast<size_t>(i);
+      ends.x[k] = hn::Load(DDi(), end.x + at), ends.y[k] = hn::Load(DDi(), end.y + at);
+      values.z[k] = hn::Load(DD(), end.z + at), values.inv_w[k] = hn::Load(DD(), end.inv_w + at);
+      values.rest_x[k] = hn::Load(DDf(), end.rest_x + at), values.rest_y[k] = hn::Load(DDf(), end.rest_y + at);
+    }
+  }
+  // Calls take(attribute, its values at both ends).
+  template <class Take>
+  HWY_INLINE void Attributes(const QuadPlan&, int attributes, int i, Take take) const {
+    const size_t at = size_t{first} + static_cast<size_t>(i);
+    for (int a = 0; a < attributes; ++a)
+      take(a, hn::Load(DDf(), columns.end[0].color[a] + at), hn::Load(DDf(), columns.end[1].color[a] + at));
+  }
+  HWY_INLINE void FlatColor(const VertexLayout&, int lane, float color[4]) const {
+    for (int k = 0; k < 4; ++k) color[k] = columns.end[1].color[k][first + static_cast<uint32_t>(lane)];
+  }
 };
 
 // The columns lines have fragments in. u is along the longer axis, v along the other, both in 1/256 px. The
@@ -122,18 +152,47 @@ struct LineColumns {
   }
 };
 
+struct LineRecords {
+  LineCorners corners;
+
+  HWY_INLINE void Ends(int i, LineEndVectors& ends, LineEndValues& values) const {
+    const DDi di;
+    const DDf df;
+    for (int k = 0; k < 2; ++k) {
+      VD words[4];
+      corners.Heads(k, i, words);
+      ends.x[k] = LowHalf(di, words[0]), ends.y[k] = HighHalf(di, words[0]);
+      values.z[k] = words[1], values.inv_w[k] = words[2];
+      values.rest_x[k] = LowHalf(df, words[3]), values.rest_y[k] = HighHalf(df, words[3]);
+    }
+  }
+  template <class Take>
+  HWY_INLINE void Attributes(const QuadPlan& quads, int attributes, int i, Take take) const {
+    for (int q = 0; q < quads.count; ++q) {
+      hn::Vec<DDf> quad[2][4];
+      for (int k = 0; k < 2; ++k) corners.Quad(quads, q, k, i, quad[k]);
+      for (int f = 0; f < 4; ++f) {
+        const int a = quads.Start(q) + f;
+        if (a >= 4 * q && a < attributes) take(a, quad[0][f], quad[1][f]);
+      }
+    }
+  }
+  HWY_INLINE void FlatColor(const VertexLayout& layout, int lane, float color[4]) const {
+    memcpy(color, raster::HWY_NAMESPACE::Attributes(reinterpret_cast<const VertexHead*>(corners.at[2][lane])) + layout.color,
+           4 * sizeof(float));
+  }
+};
+
 // Lanes [i, i + kDoubleLanes) to vectors, and attributes to columns of `in`. The lower end first, as Below()
 // has it, and the third corner at right angles that FindCorners makes.
-HWY_INLINE void SpreadLines(const LineRecords& from, const QuadPlan& quads, int attributes, int i,
+template <class Lines>
+HWY_INLINE void SpreadLines(const Lines& from, const QuadPlan& quads, int attributes, int i,
                             LineEndVectors& ends, CornerVectors& v, SetupInput& in) {
   const DD d;
   const DDi di;
   const DDf df;
-  VD words[2][4];
-  for (int k = 0; k < 2; ++k) {
-    from.Heads(k, i, words[k]);
-    ends.x[k] = LowHalf(di, words[k][0]), ends.y[k] = HighHalf(di, words[k][0]);
-  }
+  LineEndValues values;
+  from.Ends(i, ends, values);
   const VDi *x = ends.x, *y = ends.y;
   const auto swap = hn::Or(hn::Lt(y[1], y[0]), hn::And(hn::Eq(y[1], y[0]), hn::Lt(x[1], x[0])));
   const auto swap_words = hn::Ne(hn::PromoteTo(d, hn::VecFromMask(di, swap)), hn::Zero(d));
@@ -142,12 +201,10 @@ HWY_INLINE void SpreadLines(const LineRecords& from, const QuadPlan& quads, int 
   v.place_y[0] = hn::IfThenElse(swap, y[1], y[0]), v.place_y[1] = hn::IfThenElse(swap, y[0], y[1]);
   hn::Vec<DDf> rest_x[3], rest_y[3];
   for (int k = 0; k < 2; ++k) {
-    const auto choose = [&](int word) HWY_ATTR {
-      return hn::IfThenElse(swap_words, words[1 - k][word], words[k][word]);
-    };
-    v.z[k] = choose(1), v.inv_w[k] = choose(2);
-    const VD rest = choose(3);
-    rest_x[k] = LowHalf(df, rest), rest_y[k] = HighHalf(df, rest);
+    v.z[k] = hn::IfThenElse(swap_words, values.z[1 - k], values.z[k]);
+    v.inv_w[k] = hn::IfThenElse(swap_words, values.inv_w[1 - k], values.inv_w[k]);
+    rest_x[k] = hn::IfThenElse(swap_floats, values.rest_x[1 - k], values.rest_x[k]);
+    rest_y[k] = hn::IfThenElse(swap_floats, values.rest_y[1 - k], values.rest_y[k]);
   }
   v.z[2] = v.z[0], v.inv_w[2] = v.inv_w[0];
   v.place_x[2] = hn::Sub(v.place_x[0], hn::Sub(v.place_y[1], v.place_y[0]));
@@ -158,18 +215,12 @@ HWY_INLINE void SpreadLines(const LineRecords& from, const QuadPlan& quads, int 
     v.x[k] = hn::PromoteTo(d, v.place_x[k]), v.y[k] = hn::PromoteTo(d, v.place_y[k]);
     v.rest_x[k] = hn::PromoteTo(d, rest_x[k]), v.rest_y[k] = hn::PromoteTo(d, rest_y[k]);
   }
-  for (int q = 0; q < quads.count; ++q) {
-    hn::Vec<DDf> quad[2][4];
-    for (int k = 0; k < 2; ++k) from.Quad(quads, q, k, i, quad[k]);
-    for (int f = 0; f < 4; ++f) {
-      const int a = quads.Start(q) + f;
-      if (a < 4 * q || a >= attributes) continue;
-      const auto low = hn::IfThenElse(swap_floats, quad[1][f], quad[0][f]);
-      hn::Store(low, df, in.attribute[a][0] + i);
-      hn::Store(hn::IfThenElse(swap_floats, quad[0][f], quad[1][f]), df, in.attribute[a][1] + i);
-      hn::Store(low, df, in.attribute[a][2] + i);
-    }
-  }
+  from.Attributes(quads, attributes, i, [&](int a, hn::Vec<DDf> first, hn::Vec<DDf> second) HWY_ATTR {
+    const auto low = hn::IfThenElse(swap_floats, second, first);
+    hn::Store(low, df, in.attribute[a][0] + i);
+    hn::Store(hn::IfThenElse(swap_floats, first, second), df, in.attribute[a][1] + i);
+    hn::Store(low, df, in.attribute[a][2] + i);
+  });
 }
 
 HWY_INLINE VDi TileOf(VDi pixel) {
@@ -286,12 +337,12 @@ HWY_INLINE void StoreLinePlanes(const SetupBatch& s, int first, int i, LineGroup
 }
 
 // Flat colours are planes that are level.
-HWY_NOINLINE void StoreFlatColors(const DrawRecord& draw, const LineRecords& from, int count,
-                                  LineGroup& out) {
+template <class Lines>
+HWY_NOINLINE void StoreFlatColors(const DrawRecord& draw, const Lines& from, int count, LineGroup& out) {
   const FragmentParams& params = draw.program->params;
   for (int lane = 0; lane < count; ++lane) {
-    const float* color =
-        Attributes(reinterpret_cast<const VertexHead*>(from.at[2][lane])) + draw.vertices.layout.color;
+    float color[4];
+    from.FlatColor(draw.vertices.layout, lane, color);
     for (int k = 0; k < 4; ++k) {
       float* plane = out.plane[params.color_plane + k][lane];
       plane[0] = color_level(color[k], params.rounds_to_bytes);
@@ -300,8 +351,9 @@ HWY_NOINLINE void StoreFlatColors(const DrawRecord& draw, const LineRecords& fro
   }
 }
 
-// Lines of one draw, of `count` <= kSetupLanes; records beyond are to be some that can be computed with.
-void MakeLines(const DrawRecord& draw, const LineRecords& from, int count, LineGroup& out) {
+// Lines of one draw, of `count` <= kSetupLanes; those beyond are to be some that can be computed with.
+template <class Lines>
+void MakeLines(const DrawRecord& draw, const Lines& from, int count, LineGroup& out) {
   const DD d;
   const VertexLayout& layout = draw.vertices.layout;
   const FragmentParams& params = draw.program->params;
@@ -338,5 +390,9 @@ void SetUpLines(const DrawRecord& draw, const uint32_t* ends, int count, LineGro
     at[0][lane] = records + v[0] * stride;
     at[1][lane] = at[2][lane] = records + v[1] * stride;
   }
-  MakeLines(draw, LineRecords{at}, count, out);
+  MakeLines(draw, LineRecords{{at}}, count, out);
+}
+
+void SetUpLineColumns(const DrawRecord& draw, const EndColumns& ends, uint32_t first, int count, LineGroup& out) {
+  MakeLines(draw, LineColumnsAt{ends, first}, count, out);
 }

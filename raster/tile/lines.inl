@@ -194,7 +194,7 @@ HWY_INLINE std::byte* WritePartOfTile(const LineGroup& group, int lane, int x, i
 // each gives its flat colour.
 int RunPlainLines(TileContext& t, const DrawRecord& draw, const BatchRefs& refs, int count) {
   LineGroup group;
-  MakeLines(draw, LineRecords{refs.at}, count, group);
+  MakeLines(draw, LineRecords{{refs.at}}, count, group);
   alignas(64) std::byte packets[kSetupLanes * kMostLineBytes];
   std::byte* end = packets;
   int lane = 0;

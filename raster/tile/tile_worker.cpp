@@ -532,9 +532,13 @@ void run_tile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer
   select_run_tile()(segments, framebuffer, tile, next, statistics);
 }
 
-SettlePlanesFunction settle_planes() { HALFSPACE_SELECT_FUNCTION(SettlePlanes) }
+SettlePlanesFunction settle_planes(){HALFSPACE_SELECT_FUNCTION(SettlePlanes)}
 
-SetUpLinesFunction set_up_lines() { HALFSPACE_SELECT_FUNCTION(SetUpLines) }
+SetUpLinesFunction set_up_lines(){HALFSPACE_SELECT_FUNCTION(SetUpLines)}
+
+SetUpLineColumnsFunction set_up_line_columns() {
+  HALFSPACE_SELECT_FUNCTION(SetUpLineColumns)
+}
 
 namespace {
 using ListLineFunction = void (*)(const LineEnds&, int, int, const Rect&, PixelList&);

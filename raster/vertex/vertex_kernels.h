@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "raster/primitive/point_packet.h"
+#include "raster/vertex/end_columns.h"
 #include "raster/vertex/lighting_job.h"
 #include "raster/vertex/shaded_vertices.h"
 
@@ -85,6 +86,7 @@ struct VertexKernels {
   void (*shade)(const ShadeJob& job, uint32_t first, uint32_t count);
   void (*power)(const float* x, const float* s, float* out, size_t count, Level level);
   void (*place_points)(const ShadeJob& job, const PointJob& points, uint32_t first, uint32_t count);
+  void (*shade_ends)(const ShadeJob& job, uint32_t first, uint32_t lines, EndColumns& out);
 };
 
 }  // namespace halfspace::raster

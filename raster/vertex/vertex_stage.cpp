@@ -172,6 +172,13 @@ HWY_INLINE ClipVec clip_position(const ShadeJob& job, const float (*position)[kG
           row_times(m + 3, x, y, z, w)};
 }
 
+// Of outcodes: not to be cut, and finite.
+HWY_INLINE Mask is_usable(Vec code) {
+  const Doubles d;
+  const Vec bad = hn::BitCast(d, hn::Set(Words(), uint64_t{kOutCutMask | kOutNotFinite}));
+  return hn::RebindMask(d, hn::Eq(hn::BitCast(Words(), hn::And(code, bad)), hn::Zero(Words())));
+}
+
 HWY_INLINE void shade_lanes(const ShadeJob& job, Group& g, uint32_t i, ClipVertex* clip) {
   const Doubles d;
   const ClipVec c = clip_position(job, g.position, i);
@@ -182,8 +189,7 @@ HWY_INLINE void shade_lanes(const ShadeJob& job, Group& g, uint32_t i, ClipVerte
   } else {
     g.all_inside = false;
     const Vec code = outcodes(c, job.window);
-    const Vec bad = hn::BitCast(d, hn::Set(Words(), uint64_t{kOutCutMask | kOutNotFinite}));
-    usable = hn::RebindMask(d, hn::Eq(hn::BitCast(Words(), hn::And(code, bad)), hn::Zero(Words())));
+    usable = is_usable(code);
     hn::Store(hn::BitCast(Words(), code), Words(), g.outcode + i);
   }
   store_window(c, usable, job.window, g, i);
@@ -222,6 +228,7 @@ inline constexpr float kDefaults[4] = {0, 0, 0, 1};  // of a position's, colour'
 // clang-format off
 #include "raster/vertex/streams.inl"
 #include "raster/vertex/point_places.inl"
+#include "raster/vertex/line_ends.inl"
 #include "raster/exact_math.inl"
 #include "raster/vertex/power.inl"
 #include "raster/vertex/lighting.inl"
@@ -328,7 +335,7 @@ void shade(const ShadeJob& job, uint32_t first, uint32_t count) {
   }
 }
 
-VertexKernels kernels() { return {shade, power_columns, place_points}; }
+VertexKernels kernels() { return {shade, power_columns, place_points, shade_ends}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace halfspace::raster
@@ -488,6 +495,9 @@ void place_points(const DrawState& state, const VertexBatch& batch, const Vertex
                   const PointJob& points, uint32_t first, uint32_t count) {
   vertex_kernels().place_points(plain_job(state, batch, layout), points, first, count);
 }
+
+LineEndShader::LineEndShader(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout)
+    : job_(plain_job(state, batch, layout)), run_(vertex_kernels().shade_ends) {}
 
 void shade_attributes(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
                       std::span<VertexAttributes> out) {

@@ -30,6 +30,18 @@ inline void shade_vertices(const DrawState& state, const VertexBatch& batch, uin
 void place_points(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout,
                   const PointJob& points, uint32_t first, uint32_t count);
 
+// Shades the ends of separate lines into columns, of the same draws.
+class LineEndShader {
+ public:
+  LineEndShader(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout);
+  // Vertices [first, first + 2 * lines) of the batch; of up to EndColumns::kMost lines.
+  void shade(uint32_t first, uint32_t lines, EndColumns& out) const { run_(job_, first, lines, out); }
+
+ private:
+  ShadeJob job_;
+  void (*run_)(const ShadeJob& job, uint32_t first, uint32_t lines, EndColumns& out);
+};
+
 // A vertex's attributes, whatever the draw state would ask for (raster position, feedback; spec 2.13, 5.3).
 struct VertexAttributes {
   Color color, back_color;  // lit if lighting is on; in [0, 1]

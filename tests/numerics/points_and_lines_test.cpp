@@ -224,6 +224,33 @@ TEST(Lines, ManyAreThoseDrawnOneByOne) {
   }
 }
 
+// Without indices no records are made of vertices but of lines that are cut or take doubles.
+TEST(Lines, AreTheSameWithIndices) {
+  constexpr int kSide = 150;
+  for (const std::string& isa : isa_levels()) {
+    const IsaScope scope(isa);
+    for (int variant = 0; variant < 48; ++variant) {
+      DrawState state = plain_state(kSide, kSide);
+      state.depth.test = variant & 1;
+      state.raster.flat_shading = variant & 2;
+      std::vector<Vertex> lines = mixed_lines(8 + 5 * variant, kSide, variant & 4);
+      const std::vector<Vertex> colors = points_of_any_color(lines.size(), kSide);
+      for (size_t i = 0; i < lines.size(); ++i)
+        if (variant & 8) lines[i].color = colors[i].color;
+      if (variant % 5 == 1) lines[size_t(variant)].x = std::numeric_limits<float>::quiet_NaN();
+      std::vector<uint32_t> indices;
+      for (uint32_t i = 0; i < lines.size(); ++i) indices.push_back(i);
+      Canvas given(kSide, kSide), indexed(kSide, kSide);
+      given.clear(), indexed.clear();
+      given.draw(state, Primitive::lines, lines);
+      indexed.draw(state, Primitive::lines, lines, indices);
+      given.draw_plain(state, Primitive::lines, std::span(lines).first(14), {0.7f, 0.3f, 0.5f, 0.1f});
+      indexed.draw_plain(state, Primitive::lines, std::span(lines).first(14), {0.7f, 0.3f, 0.5f, 0.1f});
+      ASSERT_EQ(first_difference(given.read(), indexed.read()), "") << isa << ", " << variant;
+    }
+  }
+}
+
 // Of whatever length, and wherever tiles and bounds cut them, by cover_line.
 std::vector<bool> covered_by(std::span<const LineEnds> lines, const Rect& bounds, int side) {
   std::vector<bool> covered(static_cast<size_t>(side) * static_cast<size_t>(side));
