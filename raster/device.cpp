@@ -106,7 +106,6 @@ struct Device::Impl {
   std::vector<TileStatistics> counts;  // of each worker, for the batch that is drawn
   std::vector<StageMeter> worker_meters;
   std::vector<uint16_t> outcodes;
-  std::vector<ClipVertex> clip;
   std::vector<uint32_t> part_indices;
   std::vector<double> clip_distances;  // of the draw at hand, from the user clip planes
   std::vector<uint8_t> clip_codes;
@@ -115,7 +114,7 @@ struct Device::Impl {
   const DrawProgram& program_for(const std::shared_ptr<const DrawState>& state, const VertexLayout& layout) {
     return filling->program_for(state, layout, target->format, fuse);
   }
-  void make_room(uint32_t count, ShadedVertices& vertices);
+  void make_room(const DrawPacket& packet, ShadedVertices& vertices);
   void shade(const DrawPacket& packet, ShadedVertices& vertices);
   bool has_few_threads() const { return pool.size() <= kFewThreads; }
   uint32_t scale() const {
@@ -162,15 +161,13 @@ void Device::Impl::run_split(uint32_t count, const Task& task) {
   for (uint32_t i = 0; i < count; ++i) task(i);
 }
 
-void Device::Impl::make_room(uint32_t count, ShadedVertices& vertices) {
-  vertices.count = count;
-  vertices.records = filling->arena.allocate(count * vertices.layout.stride());
+void Device::Impl::make_room(const DrawPacket& packet, ShadedVertices& vertices) {
+  const VertexBatch& batch = packet.batch;
+  vertices.count = batch.count;
+  vertices.records = filling->arena.allocate(batch.count * vertices.layout.stride());
   vertices.outcodes.swap(outcodes);
-  vertices.clip.swap(clip);
-  if (vertices.outcodes.size() < count) {
-    vertices.outcodes.resize(count);
-    vertices.clip.resize(count);
-  }
+  if (vertices.outcodes.size() < batch.count) vertices.outcodes.resize(batch.count);
+  vertices.clip = {batch.position, *packet.state};
 }
 
 void Device::Impl::shade(const DrawPacket& packet, ShadedVertices& vertices) {
@@ -334,10 +331,10 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   if (takes_points(plan, packet)) {
     record.given_vertices = &packet.batch, record.state = packet.state;
   } else if (record.runs_lines && lines_run_unshaded(plan, packet) && !meters) {
-    make_room(packet.batch.count, record.vertices);
+    make_room(packet, record.vertices);
     record.given_vertices = &packet.batch, record.unshaded = &record.vertices, record.state = packet.state;
   } else {
-    make_room(packet.batch.count, record.vertices);
+    make_room(packet, record.vertices);
     shade(packet, record.vertices);
   }
   find_clip_distances(packet, record);
@@ -345,9 +342,9 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   // Packets bring along all that is needed.
   if ((record.runs_points && record.given_vertices == nullptr) || (record.runs_lines && !refers))
     filling->arena.take_back(size_t{packet.batch.count} * layout.stride());
-  // Clip coordinates and outcodes have done their work; the next draw takes their memory.
+  // Clip coordinates and outcodes have done their work; the next draw takes the memory of these.
   record.vertices.outcodes.swap(outcodes);
-  record.vertices.clip.swap(clip);
+  record.vertices.clip = {};
   if (record.given_vertices != nullptr) record.state = found.state_after_vertices(packet.state);
   record.given_vertices = nullptr, record.unshaded = nullptr;
   record.clip_distances = nullptr, record.clip_codes = record.edge_flags = nullptr;

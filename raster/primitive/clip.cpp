@@ -266,6 +266,9 @@ bool Clipper::triangle_planes(const uint32_t v[3], const Polygon& polygon, Plane
   const int anchor = polygon.lowest();
   job.count = 1;
   std::copy_n(v, 3, job.v[0]);
+  const ClipVertex clip[3] = {draw_.vertices.clip[v[0]], draw_.vertices.clip[v[1]],
+                              draw_.vertices.clip[v[2]]};
+  job.clip[0] = clip;
   job.back[0] = (polygon.area > 0) != draw_.state->raster.front_is_ccw;
   job.anchor_x[0] = polygon.x[anchor], job.anchor_y[0] = polygon.y[anchor];
   triangle_cut_functions().make_planes(draw_.vertices, window_, job);

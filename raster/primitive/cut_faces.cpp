@@ -19,6 +19,7 @@ CutFaces::CutFaces(const DrawRecord& draw, const Clipper& clipper, const FacingR
 void CutFaces::add(const uint32_t* v, unsigned outcodes, uint8_t provoking) {
   Face& face = faces_[count_++];
   std::copy_n(v, 3, face.v);
+  for (int k = 0; k < 3; ++k) face.clip[k] = draw_.vertices.clip[v[k]];
   face.outcodes = outcodes;
   face.provoking = v[provoking];
   face.pieces = {0, 0, false};
@@ -46,6 +47,7 @@ void CutFaces::cut_at_depth(const uint32_t* faces, uint32_t count) {
   for (uint32_t lane = 0; lane < count; ++lane) {
     const Face& face = faces_[faces[lane]];
     std::copy_n(face.v, 3, cut.v[lane]);
+    cut.clip[lane] = face.clip;
     cut.far[lane] = (face.outcodes & kOutFar) != 0;
   }
   functions_.cut_at_depth(draw_.vertices, window_, cut);
@@ -96,6 +98,7 @@ void CutFaces::take(uint32_t face, int64_t area, int32_t anchor_x, int32_t ancho
   const uint32_t lane = job_.count++;
   of_job_[lane] = face;
   std::copy_n(of.v, 3, job_.v[lane]);
+  job_.clip[lane] = of.clip;
   job_.back[lane] = of.pieces.back;
   job_.anchor_x[lane] = anchor_x, job_.anchor_y[lane] = anchor_y;
 }

@@ -43,6 +43,7 @@ class CutFaces {
  private:
   struct Face {
     uint32_t v[3];
+    ClipVertex clip[3];
     unsigned outcodes;
     uint32_t provoking;
     Pieces pieces;

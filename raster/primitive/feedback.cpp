@@ -153,7 +153,7 @@ void Feedback::shade() {
   records_.resize(count * shaded_.layout.stride());
   shaded_.records = records_.data();
   shaded_.outcodes.resize(count);
-  shaded_.clip.resize(count);
+  shaded_.clip = {packet_.batch.position, state_};
   shade_vertices(state_, packet_.batch, 0, count, shaded_);
 }
 

@@ -33,9 +33,9 @@ struct ClipVectors {
   VD x, y, z, w;
 
   HWY_INLINE ClipVectors() = default;
-  HWY_INLINE ClipVectors(const ClipVertex* clip, const uint32_t (*v)[3], int corner, int i, int count) {
+  HWY_INLINE ClipVectors(const ClipVertex* const* clip, int corner, int i, int count) {
     alignas(64) ClipVertex each[kDoubleLanes];
-    for (int k = 0; k < kDoubleLanes; ++k) each[k] = clip[v[i + k < count ? i + k : 0][corner]];
+    for (int k = 0; k < kDoubleLanes; ++k) each[k] = clip[i + k < count ? i + k : 0][corner];
     hn::LoadInterleaved4(Doubles(), &each[0].x, x, y, z, w);
   }
   HWY_INLINE void SwapIf(Mask swap, ClipVectors& other) {
@@ -175,7 +175,7 @@ void CutAtDepth(const ShadedVertices& vertices, const WindowTransform& window, D
     VD x[3], y[3], w[3], distance[3];
     Point place[3];
     for (int k = 0; k < 3; ++k) {
-      const ClipVectors corner(vertices.clip.data(), cut.v, k, i, count);
+      const ClipVectors corner(cut.clip, k, i, count);
       x[k] = corner.x, y[k] = corner.y, w[k] = corner.w, distance[k] = plane.Distance(corner);
       place[k] = PlaceOf(vertices, stride, cut, k, i);
     }
@@ -223,10 +223,10 @@ struct SortedCorners {
   ClipVectors corner[3];
   alignas(64) double index[3][kDoubleLanes];  // which of the triangle's it is
 
-  HWY_INLINE SortedCorners(const ClipVertex* clip, const PlaneJob& job, int i) {
+  HWY_INLINE SortedCorners(const PlaneJob& job, int i) {
     VD which[3];
     for (int k = 0; k < 3; ++k) {
-      corner[k] = ClipVectors(clip, job.v, k, i, static_cast<int>(job.count));
+      corner[k] = ClipVectors(job.clip, k, i, static_cast<int>(job.count));
       which[k] = All(k);
     }
     const auto order = [&](int a, int b) HWY_ATTR {
@@ -316,7 +316,7 @@ void MakePlanes(const ShadedVertices& vertices, const WindowTransform& window, P
   const size_t stride = vertices.layout.stride();
   job.usable = 0;
   for (int i = 0; i < static_cast<int>(job.count); i += kDoubleLanes) {
-    const SortedCorners sorted(vertices.clip.data(), job, i);
+    const SortedCorners sorted(job, i);
     const float* at[3][kDoubleLanes];
     bool back[kDoubleLanes];
     alignas(64) int32_t anchor_x[kDoubleLanes], anchor_y[kDoubleLanes];

@@ -22,6 +22,7 @@ constexpr bool crosses_depth_alone(unsigned outcodes) {
 struct DepthCut {
   uint32_t count;            // at most kCutLanes; all cross one of both planes alone
   uint32_t v[kCutLanes][3];  // vertices
+  const ClipVertex* clip[kCutLanes];  // three each
   bool far[kCutLanes];       // it is the far plane
   // Bits of those that are left to Clipper: their w is too small, or snapping has bent what is left.
   uint32_t not_cut;
@@ -36,6 +37,7 @@ struct DepthCut {
 struct PlaneJob {
   uint32_t count;  // at most kCutLanes
   uint32_t v[kCutLanes][3];
+  const ClipVertex* clip[kCutLanes];  // three each
   bool back[kCutLanes];
   int32_t anchor_x[kCutLanes], anchor_y[kCutLanes];
   uint32_t usable;                // bits of those whose planes are finite

@@ -49,7 +49,7 @@ ShadedPoint shade_point(const DrawState& state, const VertexBatch& batch) {
   vertices.records = record.data();
   vertices.count = 1;
   vertices.outcodes.resize(1);
-  vertices.clip.resize(1);
+  vertices.clip = {one.position, state};
   shade_vertices(state, one, 0, 1, vertices);
 
   ShadedPoint point;

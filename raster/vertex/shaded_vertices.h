@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raster/api/types.h"
+#include "raster/vertex/clip_positions.h"
 
 namespace halfspace::raster {
 
@@ -19,7 +20,7 @@ inline constexpr int kGuardBandMax = 24576;
 
 // Head of a record; `attribute_count` floats of VertexLayout follow it at once.
 struct VertexHead {
-  int32_t x, y;   // window position, 16.8, snapped: floor(v * 256 + 0.5). Undefined when the outcode says clip.
+  int32_t x, y;  // window position, 16.8, snapped: floor(v * 256 + 0.5). Undefined when the outcode says clip.
   double z;       // window depth in [0, 1], after the depth range
   double inv_w;   // 1 / clip-space w
   // What snapping took away, in 1/256 px, [-0.5, 0.5]: x + rest_x is where the vertex would be.
@@ -59,19 +60,15 @@ enum Outcode : uint16_t {
   kOutCutMask = kOutNear | kOutFar | kOutGuardLeft | kOutGuardRight | kOutGuardBottom | kOutGuardTop | kOutW,
 };
 
-struct ClipVertex {
-  double x, y, z, w;
-};
-
-// All vertices of one draw. Records are contiguous so that set-up can index them; clip coordinates and outcodes
-// are needed only until assembly is done.
+// All vertices of one draw. Records are contiguous so that set-up can index them; clip coordinates and
+// outcodes are needed, and valid, only until assembly is done.
 struct ShadedVertices {
   VertexLayout layout;
   std::byte* records = nullptr;            // count * layout.stride() bytes, owned by the device's arena
   uint32_t count = 0;
   std::vector<uint16_t> outcodes;          // count
   bool all_inside = false;                 // all of them are zero
-  std::vector<ClipVertex> clip;            // count
+  ClipPositions clip;
   const VertexHead& head(uint32_t i) const {
     return *reinterpret_cast<const VertexHead*>(records + i * layout.stride());
   }

@@ -61,7 +61,6 @@ struct ShadeJob {
   unsigned char* records;
   size_t record_stride;
   uint16_t* outcodes;
-  ClipVertex* clip;
 };
 
 // Where points of one pixel go.

@@ -179,10 +179,9 @@ HWY_INLINE Mask is_usable(Vec code) {
   return hn::RebindMask(d, hn::Eq(hn::BitCast(Words(), hn::And(code, bad)), hn::Zero(Words())));
 }
 
-HWY_INLINE void shade_lanes(const ShadeJob& job, Group& g, uint32_t i, ClipVertex* clip) {
+HWY_INLINE void shade_lanes(const ShadeJob& job, Group& g, uint32_t i) {
   const Doubles d;
   const ClipVec c = clip_position(job, g.position, i);
-  hn::StoreInterleaved4(c.x, c.y, c.z, c.w, d, &clip[i].x);
   Mask usable = surely_inside(c);
   if (HWY_LIKELY(job.window.inside_guard && hn::AllTrue(d, usable))) {
     hn::Store(hn::Zero(Words()), Words(), g.outcode + i);
@@ -315,15 +314,11 @@ HWY_NOINLINE void shade_effects(const ShadeJob& job, const Group& g, uint32_t fi
 
 void shade(const ShadeJob& job, uint32_t first, uint32_t count) {
   Group group;
-  ClipVertex tail[kGroup];
   while (count > 0) {
     const uint32_t n = count < kGroup ? count : kGroup;
-    const bool whole = n == kGroup;
-    ClipVertex* clip = whole ? job.clip + first : tail;
     load_columns(job.position, first, n, 4, kDefaults, group.position);
     group.all_inside = true;
-    for (uint32_t i = 0; i < n; i += uint32_t(hn::Lanes(Doubles()))) shade_lanes(job, group, i, clip);
-    if (!whole) memcpy(job.clip + first, tail, n * sizeof(ClipVertex));
+    for (uint32_t i = 0; i < n; i += uint32_t(hn::Lanes(Doubles()))) shade_lanes(job, group, i);
     store_heads(job, first, n, group);
     store_outcodes(job, first, n, group);
     if (job.color_offset >= 0 && !job.lighting) shade_colors(job, first, n);
@@ -431,7 +426,6 @@ struct Target {
   const VertexLayout& layout;
   void* records;
   uint16_t* outcodes;
-  ClipVertex* clip;
 };
 
 // Positions and colours, as they are.
@@ -458,7 +452,6 @@ void run_job(const DrawState& state, const VertexBatch& batch, std::span<const M
   job.records = static_cast<unsigned char*>(target.records);
   job.record_stride = target.layout.stride();
   job.outcodes = target.outcodes;
-  job.clip = target.clip;
   LightingJob lighting;
   if (calls_for_effects(state, target.layout)) {
     prepare_effects(state, batch, materials, target.layout, job, lighting);
@@ -488,7 +481,7 @@ VertexAttributes attributes_of(const FullRecord& r, bool two_sided) {
 void shade_vertices(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
                     uint32_t first, uint32_t count, ShadedVertices& out) {
   run_job(state, batch, materials, out.layout.projective ? 3 : 2, first, count,
-          {out.layout, out.records, out.outcodes.data(), out.clip.data()});
+          {out.layout, out.records, out.outcodes.data()});
 }
 
 void place_points(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout,
@@ -509,11 +502,10 @@ void shade_attributes(const DrawState& state, const VertexBatch& batch, std::spa
   const bool two_sided = state.lighting.enabled && state.lighting.two_sided;
   FullRecord records[kVertexGroup];
   uint16_t outcodes[kVertexGroup];
-  ClipVertex clip[kVertexGroup];
   for (size_t first = 0; first < out.size(); first += kVertexGroup) {
     const size_t count = std::min<size_t>(kVertexGroup, out.size() - first);
     run_job(state, part_of(batch, uint32_t(first), uint32_t(count)), materials, 4, 0, uint32_t(count),
-            {layout, records, outcodes, clip});
+            {layout, records, outcodes});
     for (size_t i = 0; i < count; ++i) out[first + i] = attributes_of(records[i], two_sided);
   }
 }

@@ -16,8 +16,8 @@ VertexBatch part_of(VertexBatch batch, uint32_t first, uint32_t count);
 // on, q only if it can differ from 1.
 VertexLayout choose_layout(const DrawState& state, const VertexBatch& batch);
 
-// Shades vertices [first, first + count) of the batch into out.records / outcodes / clip (sized by the caller
-// to batch.count). Ranges may be shaded by different threads at once. materials: DrawPacket::materials.
+// Shades vertices [first, first + count) of the batch into out.records / outcodes (sized by the caller to
+// batch.count). Ranges may be shaded by different threads at once. materials: DrawPacket::materials.
 void shade_vertices(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
                     uint32_t first, uint32_t count, ShadedVertices& out);
 inline void shade_vertices(const DrawState& state, const VertexBatch& batch, uint32_t first, uint32_t count,

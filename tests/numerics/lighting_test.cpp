@@ -180,7 +180,6 @@ Shaded shade(const Scenario& s) {
   result.storage.assign(result.out.layout.stride() / 8 * batch.count, 0);
   result.out.records = reinterpret_cast<std::byte*>(result.storage.data());
   result.out.outcodes.resize(batch.count);
-  result.out.clip.resize(batch.count);
   shade_vertices(s.state, batch, s.materials, 0, batch.count, result.out);
   return result;
 }
@@ -315,7 +314,6 @@ TEST(Lighting, AVertexAloneIsTheSame) {
       one.records = reinterpret_cast<std::byte*>(storage.data());
       one.count = 1;
       one.outcodes.resize(1);
-      one.clip.resize(1);
       Scenario alone = all;
       alone.vertices = {all.vertices[i]};
       if (!all.materials.empty()) alone.material_index = {all.material_index[i]};

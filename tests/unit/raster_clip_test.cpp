@@ -49,13 +49,13 @@ Ray cast(const Front& f, Real px, Real py) {
   const Real nx = (px - v.x) * 2 / v.width - 1, ny = (py - v.y) * 2 / v.height - 1;
   Ray ray;
   Real b[3];
-  const std::vector<ClipVertex>& clip = f.record.vertices.clip;
+  const ClipPositions& clip = f.record.vertices.clip;
   if (!weights({clip[0], clip[1], clip[2]}, nx, ny, b)) return ray;
   Real z_over_w = 0;
   ray.hit = true;
   for (uint32_t i = 0; i < 3; ++i) {
     ray.inv_w += b[i];
-    z_over_w += b[i] * Real(f.record.vertices.clip[i].z);
+    z_over_w += b[i] * Real(clip[i].z);
     ray.s_over_w += b[i] * Real(f.record.vertices.attributes(i)[0]);
     ray.hit = ray.hit && b[i] >= 0;
   }

@@ -59,7 +59,7 @@ struct Front {
     storage.assign(v.layout.stride() / 8 * batch.count, 0);
     v.records = reinterpret_cast<std::byte*>(storage.data());
     v.outcodes.resize(batch.count);
-    v.clip.resize(batch.count);
+    v.clip = {batch.position, *state};
     shade_vertices(*state, batch, 0, batch.count, v);
   }
 

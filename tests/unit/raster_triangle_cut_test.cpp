@@ -72,6 +72,11 @@ uint32_t outcodes_of(const Front& f, const uint32_t* v) {
 // How many of the triangles were cut.
 uint32_t compare(const Front& f, DepthCut& cut) {
   const Clipper clipper(f.record);
+  ClipVertex clip[kCutLanes][3];
+  for (uint32_t lane = 0; lane < cut.count; ++lane) {
+    for (int k = 0; k < 3; ++k) clip[lane][k] = f.record.vertices.clip[cut.v[lane][k]];
+    cut.clip[lane] = clip[lane];
+  }
   triangle_cut_functions().cut_at_depth(f.record.vertices, make_window_transform(f.state->viewport), cut);
   uint32_t compared = 0;
   for (uint32_t lane = 0; lane < cut.count; ++lane) {
