@@ -58,9 +58,7 @@ class Assembler {
         outcodes_(draw.vertices.outcodes.data()),
         bounds_(draw.bounds),
         facing_(draw.state->raster),
-        filter_{records_,       stride_,         draw.vertices.all_inside ? nullptr : outcodes_,
-                bounds_,        facing_.cull_cw, facing_.cull_ccw,
-                segment.tiles_x} {}
+        filter_{records_, stride_, outcodes_, bounds_, facing_.cull_cw, facing_.cull_ccw, segment.tiles_x} {}
 
   template <class Pattern>
   void faces(uint32_t first, uint32_t count) {

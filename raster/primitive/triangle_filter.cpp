@@ -41,13 +41,33 @@ HWY_INLINE unsigned mask_bits(IntMask mask) {
 #endif
 }
 
-// Twice the signed area is a difference of products below 2^49: exact in double.
-using Doubles = hn::CappedTag<double, kFilterLanes>;
-using DoubleVec = hn::Vec<Doubles>;
+// What leads from a corner to the next.
+struct Edges {
+  IntVec dx[3], dy[3];
+  HWY_INLINE explicit Edges(const Corners& c) {
+    for (int k = 0; k < 3; ++k)
+      dx[k] = hn::Sub(c.x[(k + 1) % 3], c.x[k]), dy[k] = hn::Sub(c.y[(k + 1) % 3], c.y[k]);
+  }
+};
 
 struct Areas {
   unsigned positive, negative;
 };
+
+// Where a triangle spans less than this, 1/256 px, twice its signed area fits an integer.
+constexpr int32_t kSmallSpan = 1 << 15;
+HWY_INLINE IntVec small_area(const Edges& e) {
+  return hn::Sub(hn::Mul(e.dx[2], e.dy[0]), hn::Mul(e.dx[0], e.dy[2]));
+}
+
+HWY_INLINE Areas small_area_signs(IntVec area) {
+  const IntVec zero = hn::Zero(Ints());
+  return {mask_bits(hn::Gt(area, zero)), mask_bits(hn::Lt(area, zero))};
+}
+
+// Of any triangle: a difference of products below 2^49, exact in double.
+using Doubles = hn::CappedTag<double, kFilterLanes>;
+using DoubleVec = hn::Vec<Doubles>;
 
 HWY_INLINE Areas area_signs(const int32_t (&x)[3][kFilterLanes], const int32_t (&y)[3][kFilterLanes],
                             uint32_t i) {
@@ -87,47 +107,55 @@ HWY_INLINE IntVec last_pixel(IntVec v) {
   return hn::ShiftRight<kSubpixelBits>(hn::Sub(v, hn::Set(Ints(), kSubpixelScale / 2)));
 }
 
-constexpr int kTestedPixels = 3;  // a side
+constexpr int kTestedPixels = 3;  // a side, at most
 
-// An edge function at pixel centres: >= 0 inside, by the top-left rule. Exact where a triangle is at most so
-// many pixels large.
-struct Edge {
+// An edge function at pixel centres: >= 0 inside, by the top-left rule. Exact where a triangle is at most
+// kTestedPixels large.
+struct EdgeValue {
   IntVec value, step_x, step_y;
 
-  // From corner a to corner b of a counter-clockwise triangle; `turn`: all ones where it is clockwise, and
-  // the edge runs the other way.
-  HWY_INLINE Edge(const Corners& c, int a, int b, IntVec turn, IntVec center_x, IntVec center_y) {
+  // dx, dy: along the edge, counter-clockwise. `value` without the rule, at the first centre.
+  HWY_INLINE EdgeValue(IntVec dx, IntVec dy, IntVec first) {
     const Ints d;
-    const IntVec dx = hn::Sub(hn::Xor(hn::Sub(c.x[b], c.x[a]), turn), turn);
-    const IntVec dy = hn::Sub(hn::Xor(hn::Sub(c.y[b], c.y[a]), turn), turn);
-    const IntVec zero = hn::Zero(d);
-    const IntMask inclusive = hn::Or(hn::Lt(dy, zero), hn::And(hn::Eq(dy, zero), hn::Lt(dx, zero)));
-    const IntVec bias = hn::IfThenZeroElse(inclusive, hn::Set(d, 1));
-    value = hn::Sub(hn::Sub(hn::Mul(dx, hn::Sub(center_y, c.y[a])), hn::Mul(dy, hn::Sub(center_x, c.x[a]))),
-                    bias);
+    // Inclusive are edges that go down, and level ones that go left.
+    static_assert(kTestedPixels * kSubpixelScale < 1 << 12);
+    const IntVec inclusive = hn::ShiftRight<31>(hn::Add(hn::ShiftLeft<12>(dy), dx));
+    value = hn::Add(first, hn::Xor(inclusive, hn::Set(d, -1)));
     step_x = hn::Neg(hn::ShiftLeft<kSubpixelBits>(dy));
     step_y = hn::ShiftLeft<kSubpixelBits>(dx);
   }
 };
 
-// Where a pixel centre of the box lies inside. Lanes of larger boxes come out wrong.
-HWY_INLINE IntMask covers_center(const Corners& c, const Box& box, IntVec turn, IntVec width, IntVec height) {
+// Where one of the first kPixels x kPixels centres of the box lies inside. Lanes of larger boxes come out
+// wrong.
+template <int kPixels>
+HWY_INLINE IntMask covers_center(const Corners& c, const Edges& along, IntVec area, const Box& box,
+                                 IntVec width, IntVec height) {
   const Ints d;
   const IntVec half = hn::Set(d, kSubpixelScale / 2), none = hn::Set(d, -1);
   const IntVec x = hn::Add(hn::ShiftLeft<kSubpixelBits>(box.first_x), half);
   const IntVec y = hn::Add(hn::ShiftLeft<kSubpixelBits>(box.first_y), half);
-  Edge edges[3] = {Edge(c, 0, 1, turn, x, y), Edge(c, 1, 2, turn, x, y), Edge(c, 2, 0, turn, x, y)};
+  // All ones where it is clockwise: the edges run the other way.
+  const IntVec turn = hn::ShiftRight<31>(area);
+  const auto turned = [&](IntVec v) HWY_ATTR { return hn::Sub(hn::Xor(v, turn), turn); };
+  IntVec dx[3], dy[3], first[3];
+  for (int k = 0; k < 3; ++k) dx[k] = turned(along.dx[k]), dy[k] = turned(along.dy[k]);
+  for (int k = 0; k < 2; ++k)
+    first[k] = hn::Sub(hn::Mul(dx[k], hn::Sub(y, c.y[k])), hn::Mul(dy[k], hn::Sub(x, c.x[k])));
+  first[2] = hn::Sub(turned(area), hn::Add(first[0], first[1]));  // the three are the area
+  EdgeValue edges[3] = {EdgeValue(dx[0], dy[0], first[0]), EdgeValue(dx[1], dy[1], first[1]),
+                        EdgeValue(dx[2], dy[2], first[2])};
   IntVec inside = none;  // negative: no centre was found so far
-  for (int row = 0; row < kTestedPixels; ++row) {
+  for (int row = 0; row < kPixels; ++row) {
     IntVec e[3] = {edges[0].value, edges[1].value, edges[2].value};
-    for (int column = 0; column < kTestedPixels; ++column) {
+    for (int column = 0; column < kPixels; ++column) {
       IntVec outside = hn::Or(hn::Or(e[0], e[1]), e[2]);
       outside = hn::Or(outside, hn::Sub(width, hn::Set(d, column + 1)));
       outside = hn::Or(outside, hn::Sub(height, hn::Set(d, row + 1)));
       inside = hn::And(inside, outside);
       for (int k = 0; k < 3; ++k) e[k] = hn::Add(e[k], edges[k].step_x);
     }
-    for (Edge& edge : edges) edge.value = hn::Add(edge.value, edge.step_y);
+    for (EdgeValue& edge : edges) edge.value = hn::Add(edge.value, edge.step_y);
   }
   return hn::Gt(inside, none);
 }
@@ -145,9 +173,14 @@ HWY_INLINE void store_tiles(const Box& box, int tiles_x, uint32_t i, FilteredTri
   out.in_one_tile |= mask_bits(one) << i;
 }
 
-// The lanes from `i` on whose boxes hold pixels, and not only some that the triangle misses.
-HWY_INLINE unsigned filter_lanes(const TriangleFilter& filter, uint32_t i, unsigned clockwise,
-                                 FilteredTriangles& out) {
+// What is found of some lanes.
+struct FoundLanes {
+  unsigned filled;  // their boxes hold pixels, and not only some that the triangle misses
+  Areas areas;
+};
+
+// Of the lanes from `i` on.
+HWY_INLINE FoundLanes filter_lanes(const TriangleFilter& filter, uint32_t i, FilteredTriangles& out) {
   const Ints d;
   Corners c;
   for (int k = 0; k < 3; ++k) c.x[k] = hn::LoadU(d, out.x[k] + i), c.y[k] = hn::LoadU(d, out.y[k] + i);
@@ -163,47 +196,52 @@ HWY_INLINE unsigned filter_lanes(const TriangleFilter& filter, uint32_t i, unsig
   const IntVec one = hn::Set(d, 1);
   const IntVec width = hn::Add(hn::Sub(box.last_x, box.first_x), one);
   const IntVec height = hn::Add(hn::Sub(box.last_y, box.first_y), one);
-  const unsigned filled = mask_bits(hn::Gt(hn::Min(width, height), hn::Zero(d)));
   // Of the triangle, not of what the bounds leave of its box: then nothing here overflows. A box of three
   // pixels may, with centres on its border, hold four.
   const IntVec size = hn::Max(hn::Sub(high_x, low_x), hn::Sub(high_y, low_y));
+  const Edges edges(c);
+  const IntVec area = small_area(edges);
+  const auto all = [&](IntMask mask) HWY_ATTR { return hn::AllTrue(d, mask); };
+  FoundLanes found;
+  found.filled = mask_bits(hn::Gt(hn::Min(width, height), hn::Zero(d)));
+  found.areas = HWY_LIKELY(all(hn::Lt(size, hn::Set(d, kSmallSpan)))) ? small_area_signs(area)
+                                                                      : area_signs(out.x, out.y, i);
   const unsigned small = mask_bits(hn::Lt(size, hn::Set(d, kTestedPixels * kSubpixelScale)));
-  if ((filled & small) == 0) return filled;
-  alignas(64) int32_t turns[kFilterLanes];
-  for (uint32_t lane = 0; lane < kFilterLanes; ++lane)
-    turns[lane] = -static_cast<int32_t>(clockwise >> lane & 1);
-  return filled & (~small | mask_bits(covers_center(c, box, hn::LoadU(d, turns + i), width, height)));
+  if ((found.filled & small) == 0) return found;
+  const IntMask covers = all(hn::Lt(hn::Max(width, height), hn::Set(d, kTestedPixels)))
+                             ? covers_center<kTestedPixels - 1>(c, edges, area, box, width, height)
+                             : covers_center<kTestedPixels>(c, edges, area, box, width, height);
+  found.filled &= ~small | mask_bits(covers);
+  return found;
 }
 
 // Where the corners of all lanes lie; lanes beyond `count` get those of the first triangle.
 HWY_INLINE void load_places(const TriangleFilter& filter, const uint32_t* corners, uint32_t count,
                             FilteredTriangles& out) {
+  uint32_t some[3 * kFilterLanes];
+  if (HWY_UNLIKELY(count < kFilterLanes)) {
+    for (uint32_t i = 0; i < 3 * kFilterLanes; ++i) some[i] = corners[i < 3 * count ? i : i % 3];
+    corners = some;
+  }
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   // In registers: what is stored narrow and read wide stalls.
-  const auto load = [&](auto&& triangle_of) HWY_ATTR {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const auto two = [&](uint32_t a, uint32_t b) HWY_ATTR {
-        const auto at = [&](uint32_t lane) HWY_ATTR {
-          return reinterpret_cast<const __m64*>(filter.records +
-                                                corners[3 * triangle_of(lane) + k] * filter.stride);
-        };
-        return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at(a)))), at(b));
+  for (uint32_t k = 0; k < 3; ++k) {
+    const auto two = [&](uint32_t a, uint32_t b) HWY_ATTR {
+      const auto at = [&](uint32_t lane) HWY_ATTR {
+        return reinterpret_cast<const __m64*>(filter.records + corners[3 * lane + k] * filter.stride);
       };
-      const __m256 even = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
-      const __m256 odd = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
-      _mm256_storeu_ps(reinterpret_cast<float*>(out.x[k]), _mm256_shuffle_ps(even, odd, 0x88));
-      _mm256_storeu_ps(reinterpret_cast<float*>(out.y[k]), _mm256_shuffle_ps(even, odd, 0xdd));
-    }
-  };
-  if (HWY_LIKELY(count == kFilterLanes))
-    load([](uint32_t lane) HWY_ATTR { return lane; });
-  else
-    load([count](uint32_t lane) HWY_ATTR { return lane < count ? lane : 0; });
+      return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at(a)))), at(b));
+    };
+    const __m256 even = _mm256_insertf128_ps(_mm256_castps128_ps256(two(0, 1)), two(4, 5), 1);
+    const __m256 odd = _mm256_insertf128_ps(_mm256_castps128_ps256(two(2, 3)), two(6, 7), 1);
+    _mm256_storeu_ps(reinterpret_cast<float*>(out.x[k]), _mm256_shuffle_ps(even, odd, 0x88));
+    _mm256_storeu_ps(reinterpret_cast<float*>(out.y[k]), _mm256_shuffle_ps(even, odd, 0xdd));
+  }
 #else
   for (uint32_t lane = 0; lane < kFilterLanes; ++lane) {
-    const uint32_t* triangle = corners + 3 * (lane < count ? lane : 0);
-    for (int k = 0; k < 3; ++k) {
-      const auto* place = reinterpret_cast<const Place*>(filter.records + triangle[k] * filter.stride);
+    for (uint32_t k = 0; k < 3; ++k) {
+      const auto* place =
+          reinterpret_cast<const Place*>(filter.records + corners[3 * lane + k] * filter.stride);
       out.x[k][lane] = place->x;
       out.y[k][lane] = place->y;
     }
@@ -211,11 +249,21 @@ HWY_INLINE void load_places(const TriangleFilter& filter, const uint32_t* corner
 #endif
 }
 
+// Whether a corner has to be looked at more closely. All others lie where the vertex stage put them, and
+// outside of the view volume's sides outside of the bounds.
+HWY_INLINE bool has_no_place(const FilteredTriangles& out) {
+  const Ints d;
+  IntVec least = hn::LoadU(d, out.x[0]);
+  for (int k = 0; k < 3; ++k)
+    for (uint32_t i = 0; i < kFilterLanes; i += kIntLanes) least = hn::Min(least, hn::LoadU(d, out.x[k] + i));
+  return !hn::AllTrue(d, hn::Gt(least, hn::Set(d, kNoPlace)));
+}
+
 void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint32_t count,
                      FilteredTriangles& out) {
   unsigned special = 0, outside = 0;
   load_places(filter, corners, count, out);
-  if (filter.outcodes != nullptr) {
+  if (HWY_UNLIKELY(has_no_place(out))) {
     for (uint32_t lane = 0; lane < count; ++lane) {
       const unsigned o0 = filter.outcodes[corners[3 * lane]], o1 = filter.outcodes[corners[3 * lane + 1]],
                      o2 = filter.outcodes[corners[3 * lane + 2]], any = o0 | o1 | o2;
@@ -228,11 +276,9 @@ void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint
   unsigned positive = 0, negative = 0, filled = 0;
   out.in_one_tile = 0;
   for (uint32_t i = 0; i < kFilterLanes; i += kIntLanes) {
-    const Areas areas = area_signs(out.x, out.y, i);
-    positive |= areas.positive << i, negative |= areas.negative << i;
+    const FoundLanes found = filter_lanes(filter, i, out);
+    positive |= found.areas.positive << i, negative |= found.areas.negative << i, filled |= found.filled << i;
   }
-  for (uint32_t i = 0; i < kFilterLanes; i += kIntLanes)
-    filled |= filter_lanes(filter, i, negative, out) << i;
   unsigned kept =
       filled & ((filter.cull_counter_clockwise ? 0 : positive) | (filter.cull_clockwise ? 0 : negative));
   const unsigned lanes = (1u << count) - 1;

@@ -14,7 +14,7 @@ inline constexpr uint32_t kFilterLanes = 8;
 struct TriangleFilter {
   const std::byte* records;  // of shaded vertices
   size_t stride;
-  const uint16_t* outcodes;  // null: all vertices are inside
+  const uint16_t* outcodes;
   Rect bounds;               // the draw's
   bool cull_clockwise, cull_counter_clockwise;
   int tiles_x;  // of a row

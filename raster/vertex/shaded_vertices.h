@@ -18,9 +18,12 @@ inline constexpr int kSubpixelScale = 1 << kSubpixelBits;
 inline constexpr int kGuardBandMin = -8192;
 inline constexpr int kGuardBandMax = 24576;
 
+// Not within the band.
+inline constexpr int32_t kNoPlace = -(1 << 24);
+
 // Head of a record; `attribute_count` floats of VertexLayout follow it at once.
 struct VertexHead {
-  int32_t x, y;  // window position, 16.8, snapped: floor(v * 256 + 0.5). Undefined when the outcode says clip.
+  int32_t x, y;  // window position, 16.8, snapped: floor(v * 256 + 0.5); kNoPlace when the outcode says clip.
   double z;       // window depth in [0, 1], after the depth range
   double inv_w;   // 1 / clip-space w
   // What snapping took away, in 1/256 px, [-0.5, 0.5]: x + rest_x is where the vertex would be.
@@ -67,7 +70,6 @@ struct ShadedVertices {
   std::byte* records = nullptr;            // count * layout.stride() bytes, owned by the device's arena
   uint32_t count = 0;
   std::vector<uint16_t> outcodes;          // count
-  bool all_inside = false;                 // all of them are zero
   ClipPositions clip;
   const VertexHead& head(uint32_t i) const {
     return *reinterpret_cast<const VertexHead*>(records + i * layout.stride());

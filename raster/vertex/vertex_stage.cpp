@@ -115,7 +115,7 @@ HWY_INLINE Fixed to_fixed(Vec place, Mask usable, double scale, double offset) {
   const Vec grid = hn::Floor(hn::Add(ideal, hn::Set(d, 0.5)));
   const auto rest = hn::DemoteTo(df, hn::IfThenElseZero(usable, hn::Sub(ideal, grid)));
   Vec v = hn::Add(grid, hn::Set(d, offset));
-  v = hn::IfThenElseZero(usable, v);
+  v = hn::IfThenElse(usable, v, hn::Set(d, double{kNoPlace}));
   const Vec high = hn::Set(d, double(kGuardBandMax) * kSubpixelScale - 1);  // may have been rounded up to it
   v = hn::IfThenElse(hn::Gt(v, high), high, v);
   return {hn::DemoteTo(di, v), rest};

@@ -43,7 +43,7 @@ bool covers_a_pixel(const Triangle& t) {
 // Corners on every 1/256 pixel, on pixel centres and on their edges; of all sizes, many of them tiny.
 Triangle random_triangle(std::mt19937& random) {
   const int32_t step = std::array{1, 1, 128, 64}[random() % 4];
-  const auto reach = int32_t(16) << random() % 9;
+  const auto reach = int32_t(16) << random() % 12;
   const auto near = [&](int32_t middle) {
     return (middle + int32_t(random() % uint32_t(2 * reach)) - reach) / step * step;
   };
@@ -73,18 +73,22 @@ class Filter {
   Filter(bool cull_clockwise, bool cull_counter_clockwise)
       : filter_{reinterpret_cast<const std::byte*>(corners_.data()),
                 sizeof(Corner),
-                nullptr,
+                outcodes_.data(),
                 {kLeft + kBounds.x0, kBottom + kBounds.y0, kLeft + kBounds.x1, kBottom + kBounds.y1},
                 cull_clockwise,
                 cull_counter_clockwise,
                 kTilesX} {}
 
-  FilteredTriangles run(const std::array<Triangle, kFilterLanes>& triangles, uint32_t count) {
+  using Outcodes = std::array<std::array<uint16_t, 3>, kFilterLanes>;
+  FilteredTriangles run(const std::array<Triangle, kFilterLanes>& triangles, uint32_t count,
+                        const Outcodes& outcodes = {}) {
     std::array<uint32_t, 3 * kFilterLanes> order;
     for (uint32_t i = 0; i < order.size(); ++i) {
       order[i] = uint32_t(order.size()) - 1 - i;
       const Corner& c = triangles[i / 3][i % 3];
       corners_[order[i]] = {c.x + kLeft * kSubpixelScale, c.y + kBottom * kSubpixelScale};
+      outcodes_[order[i]] = outcodes[i / 3][i % 3];
+      if ((outcodes_[order[i]] & (kOutCutMask | kOutNotFinite)) != 0) corners_[order[i]] = {kNoPlace, kNoPlace};
     }
     FilteredTriangles found{};
     triangle_filter()(filter_, order.data(), count, found);
@@ -93,6 +97,7 @@ class Filter {
 
  private:
   std::array<Corner, 3 * kFilterLanes> corners_;
+  std::array<uint16_t, 3 * kFilterLanes> outcodes_{};
   TriangleFilter filter_;
 };
 
@@ -129,6 +134,37 @@ TEST(TriangleFilter, KeepsWhatCoversAPixel) {
           ASSERT_FALSE(kept) << level;
         }
       }
+    }
+  }
+  set_isa(before);
+}
+
+// A corner of a few has no place: those are left to be cut, or dropped, and the others not touched.
+TEST(TriangleFilter, LeavesWhatHasNoPlace) {
+  const std::string before(isa_name());
+  for (const std::string& level : levels()) {
+    ASSERT_TRUE(set_isa(level));
+    std::mt19937 random(9);
+    for (int round = 0; round < 5000; ++round) {
+      const uint32_t count = 1 + random() % kFilterLanes;
+      std::array<Triangle, kFilterLanes> triangles;
+      for (Triangle& t : triangles) t = random_triangle(random);
+      Filter::Outcodes outcodes{};
+      for (auto& of_triangle : outcodes)
+        for (uint16_t& code : of_triangle)
+          code = std::array<uint16_t, 8>{0, 0, 0, 0, kOutNear, kOutNear | kOutW, kOutGuardLeft | kOutLeft,
+                                         kOutNotFinite}[random() % (round % 2 == 0 ? 8 : 5)];
+      const FilteredTriangles found = Filter(false, false).run(triangles, count, outcodes);
+      const FilteredTriangles placed = Filter(false, false).run(triangles, count);
+      for (uint32_t i = 0; i < kFilterLanes; ++i) {
+        const auto& o = outcodes[i];
+        const unsigned any = unsigned{o[0]} | o[1] | o[2];
+        const bool out = (o[0] & o[1] & o[2]) != 0 || (any & kOutNotFinite) != 0;
+        const bool special = i < count && any != 0 && !out;
+        ASSERT_EQ(found.special >> i & 1, special ? 1u : 0u) << level;
+        ASSERT_EQ(found.kept >> i & 1, any == 0 ? placed.kept >> i & 1 : 0u) << level;
+      }
+      ASSERT_EQ(found.dropped, count - uint32_t(std::popcount(found.kept | found.special)));
     }
   }
   set_isa(before);
