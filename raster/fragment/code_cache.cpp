@@ -67,6 +67,15 @@ bool take_depth_test(StageList& list) {
   return true;
 }
 
+// Whether each fragment that passes the depth test leaves its colour, in bytes, whatever was there.
+bool covers(const CodeKey& key) {
+  using enum StageId;
+  StageList list = key.lists[0];
+  if (!key.may_pack || (key.tests_depth && !take_depth_test(list)) || list.count == 0) return false;
+  const auto end = list.ids.begin() + list.count;
+  return end[-1] == write_rgba8 && overwrites(list) && std::find(list.ids.begin(), end, logic_op_rgba8) == end;
+}
+
 TileCode find_tile_code(const StageList& list) {
   if (list.count < 2) return {};
   const KernelPair kernels = find_kernels(list.ids.data(), list.count);
@@ -106,6 +115,8 @@ BlockProgram cover_blocks(const CodeKey& key, const StageList& list) {
   blocks.whole = find_tile_code(list);
   StageList rest = list;
   if (key.accepts_nearer && take_depth_test(rest)) blocks.nearer = find_tile_code(rest);
+  const bool goes_by_rows = blocks.nearer.row_count != 0 && blocks.whole.row_count == blocks.nearer.row_count + 1;
+  blocks.defers = goes_by_rows && covers(key) && blocks.stages[1] == list.ids[1];
   return blocks;
 }
 
@@ -118,6 +129,7 @@ ProgramCode find_code(const CodeKey& key) {
   constexpr StageId kStoring[] = {StageId::depth_always};
   code.stores_depth = find_kernels(kStoring, 1).tile;
   code.packs = key.may_pack;
+  code.covers = covers(key);
   const bool lists_lines = key.fuse && !key.tests_depth;
   for (unsigned variant = 0; variant <= kAffine; ++variant) {
     const StageList& list = key.lists[variant];

@@ -48,12 +48,16 @@ struct BlockProgram {
   int count = 0;
   TileCode whole;   // all of it
   TileCode nearer;  // all but the depth test it begins with
+  // All after the depth test may run later, on whatever pixels nothing has been drawn over meanwhile.
+  bool defers = false;
   // All of it on groups of a tile (BlockContext::groups): a depth test, or null, and the rest. Null: there are none such.
   BlockFunction groups_depth = nullptr, groups = nullptr;
   int head = 0;  // kernels before the first that touches colour memory, where there are two planes to do that to
   void run(BlockContext& block) const { run(block, 0, count); }
   void run_head(BlockContext& block) const { run(block, 0, head); }
   void run_tail(BlockContext& block) const { run(block, head, count); }
+  void run_depth(BlockContext& block) const { run(block, 0, 1); }
+  void run_deferred(BlockContext& block) const { run(block, 1, count); }
 
  private:
   void run(BlockContext& block, int first, int last) const {
@@ -74,6 +78,7 @@ struct ProgramCode {
   bool packs = false;
   // All that `packed` does to fragments that are affine is to round their colour and to store it.
   bool stores_color = false;
+  bool covers = false;  // whatever was there, a fragment that passes the depth test leaves its colour
   BlockFunction stores_depth = nullptr;  // on whole blocks of a tile, the depth and nothing else
 };
 

@@ -47,6 +47,19 @@ struct DepthPlane {
   }
 };
 
+// Whether it pays in a tile to defer colours until it is known what is drawn over them. Where too few were drawn over at
+// the last visit, some visits pass until it is tried again. The picture does not depend on it.
+struct DeferralHistory {
+  static constexpr uint8_t kPause = 15;   // visits
+  static constexpr uint64_t kLeast = 8;  // pays if one of so many pixels need not be shaded
+  uint8_t pause = 0;
+  // After a visit with something to defer: pixels that were, and those that had to be shaded.
+  void note(uint64_t deferred, uint64_t shaded) {
+    if (pause > 0) --pause;
+    else if ((deferred - shaded) * kLeast < deferred) pause = kPause;
+  }
+};
+
 struct TileState {
   ColorMarks color[kMaxColorPlanes];
   uint64_t depth_is_clear = ~uint64_t{0};
@@ -61,6 +74,7 @@ struct TileState {
   uint32_t depth_max[kTileBlocks] = {};  // no pixel of the block lies deeper: 24-bit, coarse z
   uint32_t depth_min[kTileBlocks] = {};  // nor nearer than this, where depth_min_holds
   uint64_t depth_min_holds = 0;
+  DeferralHistory deferrals;
 };
 
 // A framebuffer's storage as the tile workers see it.

@@ -165,6 +165,7 @@ HWY_INLINE void RunGroups(TileContext& t, unsigned lanes, const GroupList& list,
   if (t.program->reads_depth) c.depth = t.framebuffer->depth_tile(t.tile);
   c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
   if (stages.groups_depth != nullptr) stages.groups_depth(c);
+  if ((t.deferred.blocks & blocks) != 0) t.deferred.DropGroups(c.groups, c.group_count);
   stages.groups(c);
 }
 
@@ -325,6 +326,7 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
 // A triangle whose program takes the blocks of a tile's row in turn.
 void WalkRows(TileContext& t, int lane, const BlockProgram& stages, bool packs) {
   const SetupBatch& s = t.setup;
+  const Deferral deferral(t, lane, stages);
   if (!t.masks_blocks && TriangleWalk(s, lane).CoversTile())
     return TakeWholeBlocks(t, lane, ~uint64_t{0}, stages);
   const GroupWalk walk(s, lane);

@@ -30,6 +30,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/tile/packing.inl"
 
 #include "raster/tile/tile_ahead.inl"
+#include "raster/tile/deferred_pixels.inl"
 
 // What is the same for all primitives of a tile, and the scratch they share.
 struct TileContext {
@@ -58,6 +59,7 @@ struct TileContext {
   SetupInput input;
   bool input_is_clear;
   Packer packer;
+  DeferredPixels deferred;
   alignas(64) uint32_t given_depth[kBlockPixels];  // of one block of an image
   ListedPixels listed;
   GroupTables group_tables;
@@ -76,6 +78,8 @@ HWY_INLINE void AddFragments(TileContext& t, int lane, uint64_t fragments) {
 HWY_INLINE void CountFragments(TileContext& t, int lane, uint64_t mask, int each = kBlockPixels) {
   AddFragments(t, lane, static_cast<uint64_t>(__builtin_popcountll(mask)) * static_cast<uint64_t>(each));
 }
+
+#include "raster/tile/deferred.inl"
 
 HWY_INLINE void SelectColor(TileContext& t, int block, int plane) {
   const uint64_t bit = uint64_t{1} << block;
@@ -110,6 +114,8 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   BlockContext& c = t.block;
   const SetupBatch& s = t.setup;
   const PipelineProgram& program = *t.program;
+  const bool defers = t.deferred.taker != nullptr;
+  if (!defers) ShadeDeferred(t, uint64_t{1} << block);
   c.dx = s.anchor_x[lane] + (block % 8) * kBlockSize;
   c.dy = s.anchor_y[lane] + (block / 8) * kBlockSize;
   if (program.rejects_deeper && BlockIsHidden(t, lane, block)) return;
@@ -130,6 +136,7 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   CountFragments(t, lane, mask, 1);
   const BlockProgram& stages = t.even ? program.even : program.variants[s.variant[lane]];
   if (program.both_planes) RunOnBothPlanes(t, stages, block);
+  else if (defers) DeferBlock(t, stages, block);
   else stages.run(c);
   UpdateDepthBounds(t, lane, block, mask == ~uint64_t{0});
 }
@@ -155,6 +162,7 @@ HWY_INLINE uint64_t BlockMask(const TileContext& t, int block) {
 void ShadePacked(TileContext& t) {
   PixelQueue& queue = t.packer.queue;
   BlockContext& c = t.block;
+  if ((t.deferred.blocks & t.packer.blocks) != 0) t.deferred.DropListed(queue.offset, queue.count);
   c.queue = &queue;
   c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
   c.live = ~uint64_t{0} >> (kBlockPixels - queue.count);
@@ -324,6 +332,7 @@ void RunTriangle(TileContext& t, int lane) {
 
 void SelectDraw(TileContext& t, const DrawRecord& draw) {
   if (t.program != draw.program) FlushPacked(t);
+  if (!t.deferred.MayStay(draw)) ShadeDeferred(t, t.deferred.blocks);
   const Rect tile{t.x, t.y, t.x + kTileSize, t.y + kTileSize};
   const Rect cut = intersect(tile, draw.bounds);
   t.limit = {cut.x0 - t.x, cut.y0 - t.y, cut.x1 - t.x, cut.y1 - t.y};
@@ -377,8 +386,12 @@ void RunOneByOne(TileContext& t, const Segment& segment, const DrawRecord& recor
                  int count) {
   for (int lane = first; lane < count; ++lane) {
     const PrimitiveRef& ref = segment.primitives.data()[ids[lane]];
-    if (ref.kind == PrimitiveKind::triangle) RunTriangle(t, lane);
-    else RunShape(t, ref, segment, record, lane);
+    if (ref.kind == PrimitiveKind::triangle) {
+      RunTriangle(t, lane);
+      continue;
+    }
+    ShadeDeferred(t, t.deferred.blocks);
+    RunShape(t, ref, segment, record, lane);
   }
 }
 
@@ -464,6 +477,7 @@ void RunSegment(TileContext& t, const Segment& segment) {
         }
       }
       if (count != read) refs[now].Read(segment, record.vertices, stride, ids + at, count);
+      if (!refs[now].triangles) ShadeDeferred(t, t.deferred.blocks);
       const int drawn = ArePlainLines(t, segment, record, ids + at, count) ? RunPlainLines(t, record, refs[now], count) : 0;
       if (drawn < count) SetUpBatch(t, segment, record, ids + at, refs[now], count);
       const size_t next = at + static_cast<size_t>(count);
@@ -496,8 +510,10 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   alignas(64) float whole[kBlockPixels];
   for (float& c : whole) c = 1;
   TileContext t;
-  Poison(t.setup, t.input, t.planes, t.groups, t.group_tables, t.given_depth, t.listed.codes, t.line_pixels);
+  Poison(t.setup, t.deferred.setup, t.deferred.owner, t.input, t.planes, t.groups, t.group_tables, t.given_depth,
+         t.listed.codes, t.line_pixels);
   t.input_is_clear = false;
+  t.deferred.pauses = framebuffer.tiles.data()[tile].deferrals.pause > 0;
   t.framebuffer = &framebuffer;
   t.state = &framebuffer.tiles.data()[tile];
   t.tile = tile;
@@ -514,6 +530,8 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   t.block.coverage = whole;
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
   FlushPacked(t);
+  ShadeDeferred(t, t.deferred.blocks);
+  if (t.deferred.asked) t.state->deferrals.note(t.deferred.taken, t.deferred.shaded);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -10,9 +10,6 @@ struct CoveredBlocks {
   HWY_INLINE CoveredBlocks But(uint64_t blocks) const { return {whole & ~blocks, parts & ~blocks, masks}; }
 };
 
-// A block in a call of its own costs less than what a whole tile's planes do, where there are but a few.
-constexpr int kFewBlocks = 4;
-
 // The depth of blocks that were drawn just now is the triangle's. The tile keeps one such plane; where other blocks still
 // hold another, this one's are written.
 void TakeDepth(TileContext& t, int lane, uint64_t blocks) {
@@ -41,11 +38,29 @@ void RunRows(BlockContext& c, const CoveredBlocks& blocks, const TileCode& code)
   }
 }
 
+// The same, of all but the depth test, later.
+void DeferRows(TileContext& t, const CoveredBlocks& blocks, const BlockProgram& stages, bool tests_depth) {
+  BlockContext& c = t.block;
+  constexpr uint64_t kRow = (uint64_t{1} << kRowBlocks) - 1;
+  for (int first = 0; first < kTileBlocks; first += kRowBlocks) {
+    c.blocks = blocks.All() & kRow << first;
+    if (c.blocks == 0) continue;
+    for (int k = 0; k < kRowBlocks; ++k) c.row_live[k] = blocks.Of(first + k);
+    if (tests_depth) stages.whole.row[0](c);
+    t.deferred.Take(c.blocks, c.row_live);
+  }
+}
+
 // The kernel that takes many, on blocks whose depth is settled, or not asked for.
 void RunTileKernel(TileContext& t, int lane, const CoveredBlocks& blocks, const TileCode& code) {
   const SetupBatch& s = t.setup;
   BlockContext& c = t.block;
   const int plane = t.program->plane;
+  const BlockProgram* taker = t.deferred.taker;
+  if (taker == nullptr && (t.deferred.blocks & blocks.All()) != 0) {
+    if (code.overwrites || code.fills) t.deferred.Drop(blocks.whole);
+    ShadeDeferred(t, blocks.All());
+  }
   c.dx = s.anchor_x[lane];
   c.dy = s.anchor_y[lane];
   c.lane = lane;
@@ -59,7 +74,8 @@ void RunTileKernel(TileContext& t, int lane, const CoveredBlocks& blocks, const 
   c.color = t.framebuffer->color_tile<uint32_t>(t.tile, plane);
   if (t.program->reads_depth) c.depth = t.framebuffer->depth_tile(t.tile);
   c.blocks = blocks.All();
-  if (code.tile != nullptr) code.tile(c);
+  if (taker != nullptr) DeferRows(t, blocks, *taker, &code == &taker->whole);
+  else if (code.tile != nullptr) code.tile(c);
   else RunRows(c, blocks, code);
 }
 

@@ -136,6 +136,14 @@ MUTATIONS = [
     Mutation("fog: EXP2 forgets to square", STAGES + "fog.inl",
              "ExpMinus(hn::Mul(x, x))", "ExpMinus(x)", "fog_test:Fog.FactorIsWithinTenToTheMinusFive"),
 
+    Mutation("what groups draw over is shaded all the same", "raster/tile/group_walk.inl",
+             "if ((t.deferred.blocks & blocks) != 0) t.deferred.DropGroups(c.groups, c.group_count);", "",
+             "deferred_colors_test:*"),
+    Mutation("what packed pixels draw over is shaded all the same", "raster/tile/tile_worker.cpp",
+             "t.deferred.DropListed(queue.offset, queue.count);", ";", "deferred_colors_test:*"),
+    Mutation("blending does not wait for colours it looks at", "raster/tile/deferred_pixels.inl",
+             "draw.program->covers && ", "", "deferred_colors_test:*"),
+
     # ---- textures
     Mutation("lambda: the sum of both gradients", STAGES + "lambda.inl",
              "rho2.part[p] = hn::Div(hn::Max(row, columns), hn::Mul(q2, q2))", "rho2.part[p] = hn::Div(hn::Add(row, columns), hn::Mul(q2, q2))",
