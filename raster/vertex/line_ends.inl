@@ -43,17 +43,46 @@ HWY_INLINE void hold_columns(uint32_t count, float (*columns)[kGroup]) {
   }
 }
 
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+// Of bytes, eight elements at a time: fewer divisions.
+HWY_INLINE void load_byte_columns(const StreamRef& stream, uint32_t count, float (*out)[kGroup]) {
+  const __m256 whole = _mm256_set1_ps(255.0f);
+  for (uint32_t i = 0; i < count; i += 8) {
+    const auto word = [&](uint32_t j) HWY_ATTR {
+      int v;
+      memcpy(&v, stream.data + size_t{i + j < count ? i + j : 0} * stream.stride, sizeof v);
+      return v;
+    };
+    const __m256i words = _mm256_setr_epi32(word(0), word(1), word(2), word(3), word(4), word(5), word(6), word(7));
+    for (int k = 0; k < 4; ++k) {
+      const __m256i byte = _mm256_and_si256(_mm256_srli_epi32(words, 8 * k), _mm256_set1_epi32(255));
+      _mm256_store_ps(out[k] + i, _mm256_div_ps(_mm256_cvtepi32_ps(byte), whole));
+    }
+  }
+}
+#endif
+
+// What positions of the same vertices have asked for.
+HWY_INLINE void load_color_columns(const StreamRef& colors, uint32_t count, float (*out)[kGroup]) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  if (colors.bytes) return load_byte_columns(colors, count, out);
+#endif
+  load_columns<false>(colors, 0, count, 4, kDefaults, out);
+  hold_columns(count, out);
+}
+
 // Of lines whose first vertex is `first`.
 void shade_ends(const ShadeJob& job, uint32_t first, uint32_t lines, EndColumns& out) {
   alignas(64) float position[4][kGroup];
   out.all_inside = true;
   for (uint32_t k = 0; k < 2; ++k) {
     EndColumns::End& end = out.end[k];
-    load_columns(every_other(job.position, first + k), 0, lines, 4, kDefaults, position);
+    const StreamRef positions = every_other(job.position, first + k);
+    if (k == 0) load_columns(positions, 0, lines, 4, kDefaults, position);
+    else load_columns<false>(positions, 0, lines, 4, kDefaults, position);
     for (uint32_t i = 0; i < lines; i += uint32_t(hn::Lanes(Doubles())))
       shade_end_lanes(job, position, i, end, out.all_inside);
     if (job.color_offset < 0) continue;
-    load_columns(every_other(job.color, first + k), 0, lines, 4, kDefaults, end.color);
-    hold_columns(lines, end.color);
+    load_color_columns(every_other(job.color, first + k), lines, end.color);
   }
 }

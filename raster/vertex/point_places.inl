@@ -55,6 +55,11 @@ HWY_INLINE Packet* next_packet(const PointJob& points, int32_t tile) {
 
 // Vertices' own colours as fragments' stages round them to pixels: times 255 and to the nearest byte.
 HWY_INLINE void round_pixels(const ShadeJob& job, uint32_t first, uint32_t count, uint32_t* pixel) {
+  if (job.color.bytes) {  // which come out as they went in
+    const unsigned char* from = job.color.data + size_t{first} * job.color.stride;
+    for (uint32_t i = 0; i < count; ++i, from += job.color.stride) memcpy(pixel + i, from, sizeof *pixel);
+    return;
+  }
   const ColorReader colors(job, first, count);
 #if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   const __m128 one = _mm_set1_ps(1.0f), scale = _mm_set1_ps(255.0f), half = _mm_set1_ps(0.5f);

@@ -12,6 +12,7 @@ HWY_INLINE void load_any(const StreamRef& stream, const unsigned char* from, con
   for (int k = 0; k < 4; ++k) to[k] = float(from[k]) / 255.0f;
 }
 
+template <bool kAsks = true>
 HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t count, int columns,
                              const float* fallback, float (*out)[kVertexGroup]) {
   const unsigned char* p = stream.data + size_t{first} * stream.stride;
@@ -134,7 +135,8 @@ HWY_INLINE void store_columns(const FourColumns& low, const FourColumns& high, i
 }
 
 // The first `columns` floats of each element, missing ones from `fallback`. Columns are filled up to a multiple of the
-// longest vector.
+// longest vector. kAsks: for what lies ahead, which one of several streams in the same memory needs to.
+template <bool kAsks = true>
 HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t count, int columns,
                              const float* fallback, float (*out)[kVertexGroup]) {
   const QuadReader quads(stream, first, count, fallback);
@@ -142,7 +144,7 @@ HWY_INLINE void load_columns(const StreamRef& stream, uint32_t first, uint32_t c
   const size_t step = 8 * stream.stride;
   for (; i < count; i += 8) {
     const unsigned char* ahead = quads.from + size_t{i} * stream.stride + kPrefetch;
-    for (size_t k = 0; k < step; k += 64) __builtin_prefetch(ahead + k);
+    for (size_t k = 0; kAsks && k < step; k += 64) __builtin_prefetch(ahead + k);
     store_columns(FourColumns(quads, i, count), FourColumns(quads, i + 4, count), columns, i, out);
   }
   const FourColumns none(quads.missing, quads.missing, quads.missing, quads.missing);
