@@ -32,8 +32,9 @@ namespace halfspace::raster {
 namespace {
 
 constexpr uint32_t kPartPrimitives = 4096;  // a larger draw is taken in parts
-// Points that are packets at once: of fewer in a part, each tile would have a few in every part.
-constexpr size_t kPartBytes = size_t{3} << 16;
+// Points that are packets at once: of fewer in a part, each tile would have a few in every part. Of more, the
+// first ones would have left the cache.
+constexpr size_t kPartBytes = size_t{1} << 19;
 // With indices parts share vertices, and what two of them name is shaded twice: fewer parts, less of that.
 constexpr uint32_t kIndexedScale = 4;
 // With several threads draws are taken in larger parts, and more is kept back before it is executed: each

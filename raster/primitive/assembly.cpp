@@ -395,9 +395,11 @@ class Assembler {
 
   // A tile's points follow each other in memory, whatever came between.
   void run_points(uint32_t first, uint32_t count) {
-    constexpr size_t kPieceBytes = 768;  // measured best of 384, 768 and 1536
-    const size_t bytes = point_bytes(point_kind(*draw_.program));
-    segment_.packets.start_draw(segment_.bins.size(), bytes, kPieceBytes / bytes);
+    // Of many points a tile's lie in one piece, more often than not.
+    constexpr size_t kLeastPiece = 768;  // bytes
+    const size_t bytes = point_bytes(point_kind(*draw_.program)), tiles = segment_.bins.size();
+    const size_t share = size_t{count} / tiles;
+    segment_.packets.start_draw(tiles, bytes, std::max(kLeastPiece / bytes, share + share / 8));
     if (draw_.given_vertices != nullptr)
       place_points(*draw_.state, *draw_.given_vertices, draw_.vertices.layout, point_job(), first, count);
     else

@@ -112,12 +112,20 @@ void RunColoredPoints(TileContext& t, const PointPacket* points, uint32_t count,
   for (uint32_t i = 0; i < count; ++i) RunPacket(t, points[i], colored);
 }
 
+// How many points ahead of the one at hand its pixel's memory is asked for.
+inline constexpr uint32_t kPixelsAhead = 32;
+
 // Points that are pixels.
 void StorePixels(TileContext& t, const PixelPoint* points, uint32_t count) {
   if (t.state->color[t.program->plane].is_clear != 0) PrepareWindow(t, PointBlocks(points, count));
   auto* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
-  for (uint32_t i = 0; i < count; ++i) __builtin_prefetch(color + points[i].offset, 1);
-  for (uint32_t i = 0; i < count; ++i) color[points[i].offset] = points[i].pixel;
+  for (uint32_t i = 0; i < count && i < kPixelsAhead; ++i) __builtin_prefetch(color + points[i].offset, 1);
+  uint32_t i = 0;
+  for (; i + kPixelsAhead < count; ++i) {
+    __builtin_prefetch(color + points[i + kPixelsAhead].offset, 1);
+    color[points[i].offset] = points[i].pixel;
+  }
+  for (; i < count; ++i) color[points[i].offset] = points[i].pixel;
 }
 
 // With a depth test, whose outcome nobody could guess: all is stored, though it be what was there.
@@ -126,8 +134,12 @@ void TestPixels(TileContext& t, const TestedPixelPoint* points, uint32_t count) 
   auto* color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
   uint32_t* depth = t.framebuffer->depth_tile(t.tile);
   const DepthState& test = t.program->depth;
-  for (uint32_t i = 0; i < count; ++i) __builtin_prefetch(color + points[i].offset, 1), __builtin_prefetch(depth + points[i].offset, 1);
+  const auto ask = [&](uint32_t i) HWY_ATTR {
+    __builtin_prefetch(color + points[i].offset, 1), __builtin_prefetch(depth + points[i].offset, 1);
+  };
+  for (uint32_t i = 0; i < count && i < kPixelsAhead; ++i) ask(i);
   for (uint32_t i = 0; i < count; ++i) {
+    if (i + kPixelsAhead < count) ask(i + kPixelsAhead);
     const TestedPixelPoint& point = points[i];
     const uint32_t old = depth[point.offset];
     const bool pass = PassesDepthAt(test.func, point.depth, static_cast<int32_t>(old));
