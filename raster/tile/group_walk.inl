@@ -323,6 +323,9 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
   if (covered != 0 && t.program->depth_pass_lowers) LowerDepthMax(t, lane, covered);
 }
 
+// Tests and packs the pixels masks[block] of some blocks of the tile (pixel_batch.inl).
+void PackBlocks(TileContext& t, int lane, const uint64_t* masks, uint64_t blocks);
+
 // A triangle whose program takes the blocks of a tile's row in turn.
 void WalkRows(TileContext& t, int lane, const BlockProgram& stages, bool packs) {
   const SetupBatch& s = t.setup;
@@ -351,8 +354,5 @@ void WalkRows(TileContext& t, int lane, const BlockProgram& stages, bool packs) 
   // What waits for these blocks' pixels was drawn before and is stored before.
   if ((t.packer.blocks & blocks.All()) != 0) FlushPacked(t);
   if (blocks.All() != 0) RunCoveredBlocks(t, lane, blocks, stages);
-  for (; few != 0; few &= few - 1) {
-    const int block = __builtin_ctzll(few);
-    TestAndPack(t, lane, block % 8 * kBlockSize, block / 8 * kBlockSize, masks[block], few & -few);
-  }
+  if (few != 0) PackBlocks(t, lane, masks, few);
 }

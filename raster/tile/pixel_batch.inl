@@ -318,6 +318,28 @@ HWY_INLINE unsigned ListableTriangles(const TileContext& t, unsigned all) {
   return empty | (small & static_cast<unsigned>(_mm_movemask_epi8(same)));
 }
 
+void PackBlocks(TileContext& t, int lane, const uint64_t* masks, uint64_t blocks) {
+  ListedPixels& list = t.listed;
+  list.variant = t.setup.variant[lane];
+  list.blocks = blocks;
+  // Codes of a block's first two rows.
+  const __m512i two_rows = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 64, 65, 66, 67, 68, 69, 70, 71);
+  int count = list.count;
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int block = __builtin_ctzll(blocks);
+    __m512i codes = _mm512_add_epi32(
+        two_rows, _mm512_set1_epi32(lane << 12 | block / 8 * kBlockSize << 6 | block % 8 * kBlockSize));
+    for (uint64_t left = masks[block]; left != 0; left >>= kListLanes) {
+      const auto live = static_cast<__mmask16>(left);
+      _mm512_storeu_si512(list.codes + count, _mm512_maskz_compress_epi32(live, codes));
+      count += __builtin_popcount(live);
+      codes = _mm512_add_epi32(codes, _mm512_set1_epi32(2 << 6));
+    }
+  }
+  list.count = count;
+  PackAllListed(t);
+}
+
 // Draws these triangles of the batch, which follow each other.
 HWY_INLINE void ListTriangles(TileContext& t, unsigned which) {
   const SetupBatch& s = t.setup;
@@ -350,4 +372,10 @@ HWY_INLINE void ListTriangles(TileContext& t, unsigned which) {
 #else
 HWY_INLINE unsigned ListableTriangles(const TileContext&, unsigned) { return 0; }
 HWY_INLINE void ListTriangles(TileContext&, unsigned) {}
+void PackBlocks(TileContext& t, int lane, const uint64_t* masks, uint64_t blocks) {
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int block = __builtin_ctzll(blocks);
+    TestAndPack(t, lane, block % 8 * kBlockSize, block / 8 * kBlockSize, masks[block], blocks & -blocks);
+  }
+}
 #endif
