@@ -49,7 +49,7 @@ class Stream {
       if (one_in(4)) state.texture.env = EnvMode::replace;
     }
     state.raster.flat_shading = one_in(6);
-    if (one_in(6)) specialize(state);
+    if (one_in(4)) specialize(state);
     return state;
   }
 
@@ -83,8 +83,11 @@ class Stream {
   }
 
   void specialize(DrawState& state) {
-    switch (random_.integer(0, 9)) {
+    switch (random_.integer(0, 12)) {
       case 0:
+      case 10:
+      case 11:
+      case 12:
         state.blend = {true, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
         return;
       case 1:
