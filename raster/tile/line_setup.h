@@ -26,6 +26,10 @@ struct alignas(64) LineGroup {
   float plane[kMaxPlanes][kSetupLanes][4];  // f0, dfdy, dfdx
   int plane_end;
   bool has_depth;
+  // Of all lines w is constant and four colours are all their planes: packets have these in a row, as here
+  // each line has three quads of them from plane[2] on.
+  bool has_quads;
+  static constexpr int kQuads = 3;
   alignas(32) int32_t variant[kSetupLanes];
   // -1: of the line, which is longer or reaches beyond the draw's bounds, the first part is all.
   alignas(32) int32_t whole[kSetupLanes];
@@ -66,6 +70,10 @@ struct alignas(64) LineGroup {
     std::memcpy(to, part.place[lane], 16);
     std::memcpy(to + offsetof(LinePacket, anchor_x), part.anchor[lane], 16);
     to += sizeof(LinePacket);
+    if (has_quads) {
+      for (int q = 2; q < 2 + kQuads; ++q, to += 16) std::memcpy(to, plane[q][lane], 16);
+      return to;
+    }
     if (has_depth) {
       std::memcpy(to, depth[lane], 3 * sizeof(double));
       to += 3 * sizeof(double);

@@ -324,6 +324,20 @@ HWY_INLINE VDi LineShape(const LineColumns& line, VDi variant, VDi level, const 
                 hn::ShiftLeft<LinePacket::kBytesAt>(hn::IfThenElse(affine, bytes(2), bytes(1))));
 }
 
+// The planes of four colours, of which each line has 12 floats in a row.
+HWY_INLINE void StoreColorQuads(const SetupBatch& s, int i, LineGroup& out) {
+  const DDf df;
+  hn::Vec<DDf> column[4 * LineGroup::kQuads];
+  for (int k = 0; k < 4; ++k) {
+    column[3 * k] = hn::Load(df, s.f0_f[2 + k] + i);
+    column[3 * k + 1] = hn::Load(df, s.dfdy_f[2 + k] + i);
+    column[3 * k + 2] = hn::Load(df, s.dfdx_f[2 + k] + i);
+  }
+  for (int q = 0; q < LineGroup::kQuads; ++q)
+    hn::StoreInterleaved4(column[4 * q], column[4 * q + 1], column[4 * q + 2], column[4 * q + 3], df,
+                          out.plane[2 + q][i]);
+}
+
 // Planes `first` and up of the set-up.
 HWY_INLINE void StoreLinePlanes(const SetupBatch& s, int first, int i, LineGroup& out) {
   const DD d;
@@ -362,6 +376,9 @@ void MakeLines(const DrawRecord& draw, const Lines& from, int count, LineGroup& 
   SetupBatch planes;
   out.plane_end = 2 + layout.attribute_count;
   out.has_depth = draw.program->reads_depth;
+  // Where one vector has all lines.
+  const bool may_have_quads = kDoubleLanes == kSetupLanes && layout.color >= 0 && layout.attribute_count == 4 &&
+                              !out.has_depth && !draw.program->flat_shading;
   const VD middle = hn::Set(d, static_cast<double>(kSubpixelScale / 2));
   for (int i = 0; i < kSetupLanes; i += kDoubleLanes) {
     LineEndVectors ends;
@@ -375,7 +392,9 @@ void MakeLines(const DrawRecord& draw, const Lines& from, int count, LineGroup& 
     const LineCuts cuts(columns, StoreTiles(columns, draw.bounds, i, out));
     StoreParts(columns, cuts, LineShape(columns, variant, level, out), planes, i, out);
     const bool affine = hn::AllTrue(d, hn::Eq(v.inv_w[0], v.inv_w[1]));
-    StoreLinePlanes(planes, affine ? 2 : 1, i, out);
+    out.has_quads = may_have_quads && affine;
+    if (out.has_quads) StoreColorQuads(planes, i, out);
+    else StoreLinePlanes(planes, affine ? 2 : 1, i, out);
   }
   if (layout.color >= 0 && draw.program->flat_shading) StoreFlatColors(draw, from, count, out);
 }
