@@ -107,7 +107,6 @@ struct Device::Impl {
   std::vector<TileStatistics> counts;  // of each worker, for the batch that is drawn
   std::vector<StageMeter> worker_meters;
   std::vector<uint16_t> outcodes;
-  std::vector<uint32_t> part_indices;
   std::vector<double> clip_distances;  // of the draw at hand, from the user clip planes
   std::vector<uint8_t> clip_codes;
   uint32_t stipple = 0;  // where the stipple of the last line strip stands
@@ -144,7 +143,7 @@ struct Device::Impl {
   void draw_in_parts(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
                      const DrawProgram& program);
   void draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
-                 const DrawProgram& program);
+                 const DrawProgram& program, uint32_t first_vertex);
   void execute_if_full();
   void draw_pixels(const PixelPacket& packet);
   bool prepare_pixels(const PixelPacket& packet, const PipelineProgram& program);
@@ -293,27 +292,30 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
                                  const DrawProgram& program) {
   const uint32_t each = separate_vertices(packet.primitive);
   const uint32_t step = each * part_primitives({*packet.state, layout, shape, program.program}, packet);
-  if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program);
+  if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program, 0);
   for (uint32_t first = 0; first < packet.index_count; first += step) {
     DrawPacket part = packet;
     part.index_count = std::min(step, packet.index_count - first);
     uint32_t lowest = first, highest = first + part.index_count - 1;
     if (packet.indices != nullptr) {
       const uint32_t* indices = packet.indices + first;
-      const IndexRange range = index_range(indices, part.index_count);
+      static_assert(kPartPrimitives % kIndexStretch == 0);
+      const IndexRange range =
+          packet.index_ranges != nullptr
+              ? joined_range(packet.index_ranges + first / kIndexStretch, index_stretches(part.index_count))
+              : index_range(indices, part.index_count);
       lowest = range.lowest, highest = range.highest;
-      part_indices.resize(part.index_count);
-      rebase_indices(indices, part.index_count, lowest, part_indices.data());
-      part.indices = part_indices.data();
+      part.indices = indices, part.index_ranges = nullptr;
     }
     part.batch = part_of(packet.batch, lowest, highest - lowest + 1);
     // Executing a full pass drops it.
-    draw_part(part, layout, shape, first == 0 ? program : program_for(packet.state, layout));
+    draw_part(part, layout, shape, first == 0 ? program : program_for(packet.state, layout), lowest);
   }
 }
 
+// first_vertex: of the whole draw's, which the indices name.
 void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
-                             const DrawProgram& found) {
+                             const DrawProgram& found, uint32_t first_vertex) {
   const PipelineProgram& program = found.program;
   DrawRecord& record = filling->draws.emplace_back();
   record.state = found.state_after_vertices(packet.state);
@@ -325,6 +327,7 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.edge_flags = packet.batch.edge_flag;
   record.stipple_start = packet.continues ? stipple : 0;
   record.vertices.layout = layout;
+  record.first_vertex = first_vertex;
   const uint32_t primitives = primitive_count(packet.primitive, packet.index_count);
   const DrawPlan plan{*packet.state, layout, record.shape, program};
   record.runs_points = points_run(plan, packet.primitive) && !notes;

@@ -119,12 +119,17 @@ void fill_batch_indexed(Context& context, const VertexNeeds& needs, raster::Vert
   if (needs.edge_flag) fill_edge_flags(context, batch, count, [=](size_t i) { return size_t{indices[i]}; });
 }
 
-struct IndexRange {
-  uint32_t lowest, highest;
-};
+using raster::IndexRange;
 
+// Of all indices; of those that the device takes as they are, of each stretch in the scratch, too.
 template <class T>
-IndexRange find_range(const T* indices, size_t count) {
+IndexRange find_range(VertexArrayState& arrays, const T* indices, size_t count) {
+  if constexpr (sizeof(T) == sizeof(uint32_t)) {
+    const size_t stretches = raster::index_stretches(count);
+    if (arrays.range_scratch.size() < stretches) arrays.range_scratch.resize(stretches);
+    raster::find_index_ranges(indices, count, arrays.range_scratch.data());
+    return raster::joined_range(arrays.range_scratch.data(), stretches);
+  }
   T lowest = indices[0], highest = indices[0];
   for (size_t i = 1; i < count; ++i) {
     lowest = std::min(lowest, indices[i]);
@@ -148,7 +153,7 @@ bool is_sparse(IndexRange range, size_t count) { return range.highest - range.lo
 template <class T>
 void draw_indexed(Context& context, raster::DrawPacket& packet, const T* indices, size_t count) {
   VertexArrayState& arrays = context.vertex_array;
-  const IndexRange range = find_range(indices, count);
+  const IndexRange range = find_range(arrays, indices, count);
   const VertexNeeds needs = vertex_needs(context, GLenum(packet.primitive));
   if (!arrays_are_readable(context, needs, range.lowest, range.highest)) return;
   packet.index_count = uint32_t(count);
@@ -164,6 +169,7 @@ void draw_indexed(Context& context, raster::DrawPacket& packet, const T* indices
   fill_batch_range(context, needs, packet.batch, base, size_t{range.highest} - base + 1);
   if constexpr (sizeof(T) == sizeof(uint32_t)) {
     packet.indices = move ? rebase(arrays, indices, count, base) : indices;
+    if (!move) packet.index_ranges = arrays.range_scratch.data();
   } else {
     packet.indices = rebase(arrays, indices, count, base);
   }

@@ -123,6 +123,13 @@ void store_columns(ListMemory& memory, const ListBatchBuilder& builder, ListBatc
   batch.edge_flags = store_flags(memory, builder.columns[kListEdgeFlag].data);
 }
 
+void store_indices(ListMemory& memory, const std::vector<uint32_t>& indices, ListBatch& batch) {
+  batch.indices = memory.copy(indices.data(), indices.size());
+  std::vector<raster::IndexRange> ranges(raster::index_stretches(indices.size()));
+  raster::find_index_ranges(indices.data(), indices.size(), ranges.data());
+  batch.index_ranges = memory.copy(ranges.data(), ranges.size());
+}
+
 }  // namespace
 
 ListBatch store_batch(ListMemory& memory, const ListBatchBuilder& builder, const ListValues& last) {
@@ -132,7 +139,7 @@ ListBatch store_batch(ListMemory& memory, const ListBatchBuilder& builder, const
   batch.mode = builder.mode;
   store_columns(memory, repeats ? indexed.vertices : builder, batch);
   batch.index_count = builder.count;
-  if (repeats) batch.indices = memory.copy(indexed.indices.data(), indexed.indices.size());
+  if (repeats) store_indices(memory, indexed.indices, batch);
   batch.last = last;
   batch.materials = memory.copy(builder.materials.data(), builder.materials.size());
   batch.material_count = uint32_t(builder.materials.size());

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "raster/api/index_ranges.h"
 #include "state/gl_types.h"
 
 namespace halfspace::state {
@@ -53,6 +54,7 @@ struct ListBatch {
   const uint8_t* edge_flags = nullptr;  // the column of kListEdgeFlag, as the renderer wants it
   const uint32_t* indices = nullptr;    // null: the vertices in turn
   uint32_t index_count = 0;
+  const raster::IndexRange* index_ranges = nullptr;  // as raster::DrawPacket has them
   ListValues last;  // the current values afterwards
   const ListMaterial* materials = nullptr;
   uint32_t material_count = 0;

@@ -105,6 +105,7 @@ void draw(Context& context, const ListBatch& batch) {
   packet.primitive = primitive_of(batch.mode);
   packet.indices = batch.indices;
   packet.index_count = batch.index_count;
+  packet.index_ranges = batch.index_ranges;
   raster::VertexBatch& out = packet.batch;
   out.count = batch.count;
   out.position = {batch.position.data, batch.position.constant ? 0 : batch.position.size * sizeof(float),

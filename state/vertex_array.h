@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "raster/api/index_ranges.h"
 #include "state/gl_types.h"
 
 namespace halfspace::state {
@@ -32,6 +33,7 @@ struct VertexArrayState {
   std::vector<float> position_scratch, color_scratch, tex_coord_scratch, normal_scratch;
   std::vector<uint8_t> edge_flag_scratch;
   std::vector<uint32_t> index_scratch;
+  std::vector<raster::IndexRange> range_scratch;
 };
 
 // The array GL_VERTEX_ARRAY, GL_COLOR_ARRAY ... names, or null.

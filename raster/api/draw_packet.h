@@ -8,6 +8,7 @@
 #include <span>
 
 #include "raster/api/draw_state.h"
+#include "raster/api/index_ranges.h"
 
 namespace halfspace::raster {
 
@@ -55,6 +56,8 @@ struct DrawPacket {
   VertexBatch batch;
   const uint32_t* indices = nullptr;
   uint32_t index_count = 0;
+  // Of each stretch of the indices. Null: not known.
+  const IndexRange* index_ranges = nullptr;
   // A line strip that goes on where the draw before this one ended: the line stipple runs on.
   bool continues = false;
   std::span<const MaterialPair> materials;

@@ -58,7 +58,9 @@ class Assembler {
         outcodes_(draw.vertices.outcodes.data()),
         bounds_(draw.bounds),
         facing_(draw.state->raster),
-        filter_{records_, stride_, outcodes_, bounds_, facing_.cull_cw, facing_.cull_ccw, segment.tiles_x} {}
+        base_(indices ? draw.first_vertex : 0),
+        filter_{records_,        stride_,          base_,          outcodes_, bounds_,
+                facing_.cull_cw, facing_.cull_ccw, segment.tiles_x} {}
 
   template <class Pattern>
   void faces(uint32_t first, uint32_t count) {
@@ -96,13 +98,14 @@ class Assembler {
   }
 
  private:
-  // Of a group of triangles; `made`: where they go that are not in memory as they are.
+  // Of a group of triangles, as the draw calls them; `made`: where they go that are not in memory as they
+  // are.
   template <class Pattern>
   const uint32_t* corners_of(uint32_t first, uint32_t group, uint32_t* made) const {
     if (std::is_same_v<Pattern, ListTriangles> && indices_ != nullptr) return indices_ + 3 * first;
     for (uint32_t i = 0; i < group; ++i) {
       const Corners at = Pattern::at(first + i);
-      for (uint32_t k = 0; k < 3; ++k) made[3 * i + k] = vertex(at.v[k]);
+      for (uint32_t k = 0; k < 3; ++k) made[3 * i + k] = name(at.v[k]);
     }
     return made;
   }
@@ -138,7 +141,9 @@ class Assembler {
     if (waiting != 0) take_waiting();
   }
 
-  uint32_t vertex(uint32_t place) const { return indices_ ? indices_[place] : place; }
+  // What the draw calls a vertex, and which of those here it is.
+  uint32_t name(uint32_t place) const { return indices_ ? indices_[place] : place; }
+  uint32_t vertex(uint32_t place) const { return name(place) - base_; }
   const VertexHead& head(uint32_t i) const {
     return *reinterpret_cast<const VertexHead*>(records_ + size_t{i} * stride_);
   }
@@ -155,7 +160,8 @@ class Assembler {
 
   void add_cut(uint32_t lanes, const uint32_t* corners, uint8_t provoking, CutFaces& cut) const {
     for (; lanes != 0; lanes &= lanes - 1) {
-      const uint32_t* v = corners + 3 * std::countr_zero(lanes);
+      const uint32_t* named = corners + 3 * std::countr_zero(lanes);
+      const uint32_t v[3] = {named[0] - base_, named[1] - base_, named[2] - base_};
       cut.add(v, unsigned{outcodes_[v[0]]} | outcodes_[v[1]] | outcodes_[v[2]], provoking);
     }
   }
@@ -176,7 +182,8 @@ class Assembler {
 
   void bin_filtered(const FilteredTriangles& found, uint32_t lane, const uint32_t* v, uint8_t provoking) {
     const bool back = (found.clockwise >> lane & 1) == facing_.front_is_ccw;
-    const uint32_t primitive = append({{v[0], v[1], v[2]}, PrimitiveKind::triangle, false, back, provoking});
+    const uint32_t primitive =
+        append({{v[0] - base_, v[1] - base_, v[2] - base_}, PrimitiveKind::triangle, false, back, provoking});
     if (found.in_one_tile >> lane & 1) return push_to_bin(segment_, size_t(found.tile[lane]), primitive);
     const TileBox tiles{found.tile_x0[lane], found.tile_y0[lane], found.tile_x1[lane], found.tile_y1[lane]};
     const int32_t x[3] = {found.x[0][lane], found.x[1][lane], found.x[2][lane]};
@@ -481,6 +488,7 @@ class Assembler {
   const uint16_t* outcodes_;
   Rect bounds_;
   FacingRule facing_;
+  uint32_t base_;  // the name of vertex 0
   TriangleFilter filter_;
   std::optional<Clipper> clipper_;  // once something is cut
 };

@@ -1,6 +1,8 @@
 // Compiled once an ISA level: what every x86-64 has knows no minimum of unsigned words.
 #include "raster/primitive/index_part.h"
 
+#include <algorithm>
+
 #include "raster/isa.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -36,14 +38,6 @@ IndexRange FindRange(const uint32_t* indices, uint32_t count) {
   return {lowest, highest};
 }
 
-void Rebase(const uint32_t* indices, uint32_t count, uint32_t base, uint32_t* out) {
-  const Words d;
-  const auto lanes = static_cast<uint32_t>(hn::Lanes(d));
-  uint32_t i = 0;
-  for (; i + lanes <= count; i += lanes) hn::StoreU(hn::Sub(hn::LoadU(d, indices + i), hn::Set(d, base)), d, out + i);
-  for (; i < count; ++i) out[i] = indices[i] - base;
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace halfspace::raster
 HWY_AFTER_NAMESPACE();
@@ -52,14 +46,15 @@ HWY_AFTER_NAMESPACE();
 namespace halfspace::raster {
 namespace {
 using RangeFunction = IndexRange (*)(const uint32_t*, uint32_t);
-using RebaseFunction = void (*)(const uint32_t*, uint32_t, uint32_t, uint32_t*);
 RangeFunction select_range() { HALFSPACE_SELECT_FUNCTION(FindRange) }
-RebaseFunction select_rebase() { HALFSPACE_SELECT_FUNCTION(Rebase) }
 }  // namespace
 
-IndexRange index_range(const uint32_t* indices, uint32_t count) { return select_range()(indices, count); }
-void rebase_indices(const uint32_t* indices, uint32_t count, uint32_t base, uint32_t* out) {
-  select_rebase()(indices, count, base, out);
+void find_index_ranges(const uint32_t* indices, size_t count, IndexRange* ranges) {
+  const RangeFunction find = select_range();
+  for (size_t first = 0; first < count; first += kIndexStretch)
+    *ranges++ = find(indices + first, uint32_t(std::min<size_t>(count - first, kIndexStretch)));
 }
+
+IndexRange index_range(const uint32_t* indices, uint32_t count) { return select_range()(indices, count); }
 }  // namespace halfspace::raster
 #endif

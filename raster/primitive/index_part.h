@@ -1,18 +1,13 @@
-// The indices of a part of a draw: which vertices they name, and the same counted from the lowest of those.
+// The indices of a part of a draw: which vertices they name.
 #pragma once
 
 #include <cstdint>
 
-namespace halfspace::raster {
+#include "raster/api/index_ranges.h"
 
-struct IndexRange {
-  uint32_t lowest, highest;
-};
+namespace halfspace::raster {
 
 // count > 0.
 IndexRange index_range(const uint32_t* indices, uint32_t count);
-
-// out[i] = indices[i] - base.
-void rebase_indices(const uint32_t* indices, uint32_t count, uint32_t base, uint32_t* out);
 
 }  // namespace halfspace::raster

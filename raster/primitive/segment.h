@@ -71,6 +71,7 @@ struct DrawRecord {
   const double* clip_distances = nullptr;
   const uint8_t* clip_codes = nullptr;
   const uint8_t* edge_flags = nullptr;
+  uint32_t first_vertex = 0;   // what its indices name that vertex by which is the first one here
   uint32_t stipple_start = 0;  // where the first line's stipple starts
   bool runs_points = false;  // its points are binned as runs
   bool runs_lines = false;   // its lines are, as far as they are not cut and floats will do

@@ -67,7 +67,7 @@ class ShapeAssembler {
   }
 
  private:
-  uint32_t vertex(uint32_t place) const { return indices_ ? indices_[place] : place; }
+  uint32_t vertex(uint32_t place) const { return indices_ ? indices_[place] - draw_.first_vertex : place; }
   const VertexHead& head(uint32_t v) const { return draw_.vertices.head(v); }
   unsigned codes(uint32_t v) const {
     const unsigned user = draw_.clip_codes ? draw_.clip_codes[v] : 0u;

@@ -223,12 +223,14 @@ HWY_INLINE void load_places(const TriangleFilter& filter, const uint32_t* corner
     for (uint32_t i = 0; i < 3 * kFilterLanes; ++i) some[i] = corners[i < 3 * count ? i : i % 3];
     corners = some;
   }
+  // Where vertex 0 would be.
+  const auto records = reinterpret_cast<uintptr_t>(filter.records) - size_t{filter.base} * filter.stride;
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   // In registers: what is stored narrow and read wide stalls.
   for (uint32_t k = 0; k < 3; ++k) {
     const auto two = [&](uint32_t a, uint32_t b) HWY_ATTR {
       const auto at = [&](uint32_t lane) HWY_ATTR {
-        return reinterpret_cast<const __m64*>(filter.records + corners[3 * lane + k] * filter.stride);
+        return reinterpret_cast<const __m64*>(records + corners[3 * lane + k] * filter.stride);
       };
       return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at(a)))), at(b));
     };
@@ -240,8 +242,7 @@ HWY_INLINE void load_places(const TriangleFilter& filter, const uint32_t* corner
 #else
   for (uint32_t lane = 0; lane < kFilterLanes; ++lane) {
     for (uint32_t k = 0; k < 3; ++k) {
-      const auto* place =
-          reinterpret_cast<const Place*>(filter.records + corners[3 * lane + k] * filter.stride);
+      const auto* place = reinterpret_cast<const Place*>(records + corners[3 * lane + k] * filter.stride);
       out.x[k][lane] = place->x;
       out.y[k][lane] = place->y;
     }
@@ -264,9 +265,11 @@ void FilterTriangles(const TriangleFilter& filter, const uint32_t* corners, uint
   unsigned special = 0, outside = 0;
   load_places(filter, corners, count, out);
   if (HWY_UNLIKELY(has_no_place(out))) {
+    const auto outcode = [&](uint32_t corner)
+                             HWY_ATTR { return unsigned{filter.outcodes[corner - filter.base]}; };
     for (uint32_t lane = 0; lane < count; ++lane) {
-      const unsigned o0 = filter.outcodes[corners[3 * lane]], o1 = filter.outcodes[corners[3 * lane + 1]],
-                     o2 = filter.outcodes[corners[3 * lane + 2]], any = o0 | o1 | o2;
+      const unsigned o0 = outcode(corners[3 * lane]), o1 = outcode(corners[3 * lane + 1]),
+                     o2 = outcode(corners[3 * lane + 2]), any = o0 | o1 | o2;
       if ((o0 & o1 & o2) != 0 || (any & kOutNotFinite) != 0)
         outside |= 1u << lane;
       else if ((any & kOutCutMask) != 0)

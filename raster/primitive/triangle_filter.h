@@ -14,6 +14,7 @@ inline constexpr uint32_t kFilterLanes = 8;
 struct TriangleFilter {
   const std::byte* records;  // of shaded vertices
   size_t stride;
+  uint32_t base;  // what corners are counted from
   const uint16_t* outcodes;
   Rect bounds;               // the draw's
   bool cull_clockwise, cull_counter_clockwise;

@@ -18,6 +18,8 @@ constexpr Rect kBounds{3, 2, 13, 14};  // within the 16 x 16 pixels the triangle
 // Where those begin: four tiles meet among them.
 constexpr int kLeft = 2 * kTileSize - 7, kBottom = kTileSize - 9, kTilesX = 5;
 
+constexpr uint32_t kBase = 4000000000;  // what corners are counted from
+
 struct Corner {
   int32_t x, y;
 };
@@ -73,6 +75,7 @@ class Filter {
   Filter(bool cull_clockwise, bool cull_counter_clockwise)
       : filter_{reinterpret_cast<const std::byte*>(corners_.data()),
                 sizeof(Corner),
+                kBase,
                 outcodes_.data(),
                 {kLeft + kBounds.x0, kBottom + kBounds.y0, kLeft + kBounds.x1, kBottom + kBounds.y1},
                 cull_clockwise,
@@ -91,6 +94,7 @@ class Filter {
       if ((outcodes_[order[i]] & (kOutCutMask | kOutNotFinite)) != 0) corners_[order[i]] = {kNoPlace, kNoPlace};
     }
     FilteredTriangles found{};
+    for (uint32_t& corner : order) corner += kBase;
     triangle_filter()(filter_, order.data(), count, found);
     return found;
   }

@@ -1,4 +1,5 @@
-// The range of indices and indices counted from its lowest, on every instruction set and at every length about a vector's.
+// The range of indices, on every instruction set and at every length about a vector's, and of a draw's
+// stretches.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,14 +47,23 @@ TEST_P(IndexPart, RangeIsThatOfEveryPlace) {
   }
 }
 
-TEST_P(IndexPart, RebaseWritesAsManyAsThereAre) {
+TEST_P(IndexPart, RangesAreThoseOfTheStretches) {
   std::mt19937 random(2);
-  for (uint32_t count = 0; count < 70; ++count) {
+  for (size_t count : {size_t{1}, size_t{kIndexStretch - 1}, size_t{kIndexStretch}, size_t{kIndexStretch + 1},
+                       size_t{3 * kIndexStretch + 100}}) {
     const std::vector<uint32_t> indices = some_indices(count, random);
-    std::vector<uint32_t> out(count + 1, 7);
-    rebase_indices(indices.data(), count, 12345, out.data());
-    for (uint32_t i = 0; i < count; ++i) EXPECT_EQ(out[i], indices[i] - 12345) << count;
-    EXPECT_EQ(out[count], 7u);
+    std::vector<IndexRange> ranges(index_stretches(count) + 1, IndexRange{7, 7});
+    find_index_ranges(indices.data(), count, ranges.data());
+    for (size_t i = 0; i < index_stretches(count); ++i) {
+      const size_t first = i * kIndexStretch, end = std::min(count, first + kIndexStretch);
+      const IndexRange range = index_range(indices.data() + first, uint32_t(end - first));
+      EXPECT_EQ(ranges[i].lowest, range.lowest) << count << " " << i;
+      EXPECT_EQ(ranges[i].highest, range.highest) << count << " " << i;
+    }
+    EXPECT_EQ(ranges.back().lowest, 7u) << count;
+    const IndexRange all = joined_range(ranges.data(), index_stretches(count));
+    EXPECT_EQ(all.lowest, *std::min_element(indices.begin(), indices.end())) << count;
+    EXPECT_EQ(all.highest, *std::max_element(indices.begin(), indices.end())) << count;
   }
 }
 
