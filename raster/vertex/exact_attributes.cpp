@@ -47,10 +47,9 @@ double clamp_unit(double v) { return v > 0 ? std::min(v, 1.0) : 0; }
 
 void load(const AttributeStream& stream, uint32_t i, int most, double* out) {
   if (!stream.data) return;
-  const auto* from = static_cast<const unsigned char*>(stream.data) + size_t{i} * stream.stride;
   float v[4];
+  read_element(stream, i, v);
   const int size = std::min<int>(stream.size, most);
-  std::memcpy(v, from, size_t(size) * sizeof(float));
   for (int k = 0; k < size; ++k) out[k] = double(v[k]);
 }
 

@@ -526,5 +526,35 @@ TEST(Lighting, OutlinesTakeTheirPolygonsColour) {
   }
 }
 
+// Colours that the material takes over, as bytes and as the floats they stand for.
+TEST(Lighting, BytesAreTheColoursTheyStandFor) {
+  constexpr int kSize = 64;
+  const std::array<std::array<uint8_t, 4>, 3> bytes{{{255, 17, 80, 255}, {3, 200, 129, 60}, {90, 1, 254, 128}}};
+  for (const Level level : {Level::standard, Level::exact}) {
+    DrawState state = plain_state(kSize, kSize);
+    state.accuracy.transform = level;
+    state.lighting.enabled = true;
+    state.lighting.lights[0].enabled = true;
+    state.lighting.lights[0].diffuse = {1, 0.75f, 0.5f, 1};
+    state.lighting.color_material_front.diffuse = true;
+    std::array<Vertex, 3> corners{{{-1, -1}, {1, -1}, {0, 1}}};
+    for (size_t i = 0; i < 3; ++i) {
+      const auto channel = [&](size_t k) { return static_cast<float>(bytes[i][k]) / 255.0f; };
+      corners[i].color = {channel(0), channel(1), channel(2), channel(3)};
+    }
+    Canvas as_floats(kSize, kSize), as_bytes(kSize, kSize);
+    as_floats.draw(state, Primitive::triangles, corners);
+    DrawPacket packet;
+    packet.state = std::make_shared<DrawState>(state);
+    packet.index_count = packet.batch.count = 3;
+    packet.batch.position = {&corners[0].x, sizeof(Vertex), 4};
+    packet.batch.color = {bytes.data(), sizeof bytes[0], 4, true};
+    as_bytes.device().draw(packet);
+    const Picture picture = as_bytes.read();
+    EXPECT_EQ(first_difference(as_floats.read(), picture), "") << "level " << int(level);
+    EXPECT_GT(picture.pixel(kSize / 2, kSize / 2)[0], 0);
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::test
