@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "compare/statistics.h"
 
@@ -24,9 +25,13 @@ class Simulation {
       case Kind::front:
         run_front(event.tasks_us);
         break;
+      case Kind::prepare:
+        prepare_ = event.tasks_us.at(0);
+        break;
       case Kind::back:
         back_ = event.tasks_us;
         next_ = 0;
+        prepared_ = now_;
         back_open_ = now_ + wake_;
         back_end_ = now_;
         break;
@@ -51,6 +56,12 @@ class Simulation {
 
   // Helpers take tasks of the back as long as they begin before `time`.
   void advance_helpers(double time) {
+    if (prepare_ > 0 && !helpers_.empty()) {
+      double& helper = earliest_helper();
+      const double start = std::max(helper, back_open_);
+      if (start >= time) return;
+      prepared_ = back_open_ = helper = start + std::exchange(prepare_, 0);
+    }
     while (next_ < back_.size() && !helpers_.empty()) {
       double& helper = earliest_helper();
       const double start = std::max(helper, back_open_);
@@ -76,6 +87,9 @@ class Simulation {
 
   void finish_back() {
     advance_helpers(now_);
+    if (prepare_ > 0) prepared_ = back_open_ = now_ + std::exchange(prepare_, 0);  // nobody else had the time
+    now_ = std::max(now_, prepared_);
+    advance_helpers(now_);
     while (next_ < back_.size()) {
       now_ += back_[next_++];
       advance_helpers(now_);
@@ -90,6 +104,8 @@ class Simulation {
   double now_ = 0;  // of the caller
   std::vector<double> back_;
   size_t next_ = 0;
+  double prepare_ = 0;   // what has to be done before the back's first task
+  double prepared_ = 0;  // when that is done
   double back_open_ = 0, back_end_ = 0;
   std::vector<double> pictures_;
 };
@@ -118,11 +134,9 @@ Work work_of(const Trace& trace) {
 }
 
 TraceEvent event_of(const std::string& line) {
-  static const std::map<std::string, Kind> kinds{{"serial", Kind::serial},
-                                                 {"front", Kind::front},
-                                                 {"back", Kind::back},
-                                                 {"wait", Kind::wait},
-                                                 {"picture", Kind::picture}};
+  static const std::map<std::string, Kind> kinds{{"serial", Kind::serial},   {"front", Kind::front},
+                                                 {"prepare", Kind::prepare}, {"back", Kind::back},
+                                                 {"wait", Kind::wait},       {"picture", Kind::picture}};
   std::istringstream words(line);
   std::string name;
   words >> name;
@@ -130,7 +144,8 @@ TraceEvent event_of(const std::string& line) {
   if (kind == kinds.end()) throw std::runtime_error("not a line of a trace: " + line.substr(0, 80));
   TraceEvent event{kind->second, {}};
   for (double nanoseconds = 0; words >> nanoseconds;) event.tasks_us.push_back(nanoseconds * 1e-3);
-  if (!words.eof() || (event.kind == Kind::serial && event.tasks_us.size() != 1))
+  const bool is_one = event.kind == Kind::serial || event.kind == Kind::prepare;
+  if (!words.eof() || (is_one && event.tasks_us.size() != 1))
     throw std::runtime_error("not a line of a trace: " + line.substr(0, 80));
   return event;
 }

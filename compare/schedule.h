@@ -8,8 +8,8 @@
 namespace halfspace::compare {
 
 struct TraceEvent {
-  enum class Kind { serial, front, back, wait, picture } kind;
-  std::vector<double> tasks_us;  // of serial: the one time
+  enum class Kind { serial, front, prepare, back, wait, picture } kind;
+  std::vector<double> tasks_us;  // of serial and prepare: the one time
 };
 
 struct Trace {
@@ -27,9 +27,9 @@ struct Schedule {
 };
 
 // The caller and `cores` - 1 helpers, a core each, do the recorded tasks as ThreadPool does: a loop of the
-// front goes before the one at the back, and whoever is free takes the next task. A helper begins with a loop
-// `wake_us` after it was opened. What the cores cost each other, in memory traffic above all, is left out.
-// Two pictures at least.
+// front goes before the one at the back, and whoever is free takes the next task. What prepares a back is
+// done by the first who is free, before any of its tasks. A helper begins with a loop `wake_us` after it was
+// opened. What the cores cost each other, in memory traffic above all, is left out. Two pictures at least.
 Schedule simulate(const Trace& trace, int cores, double wake_us);
 
 }  // namespace halfspace::compare

@@ -4,6 +4,7 @@
 #include <cinttypes>
 #include <cstdlib>
 #include <ctime>
+#include <utility>
 
 namespace halfspace::raster {
 
@@ -62,8 +63,14 @@ uint64_t* TaskTrace::begin_front(uint32_t tasks) {
 
 void TaskTrace::end_front() { serial_since_ = thread_nanoseconds(); }
 
-uint64_t* TaskTrace::begin_back(uint32_t tasks) {
+uint64_t* TaskTrace::begin_prepare() {
   end_serial();
+  prepares_ = true;
+  return add("prepare", 1);
+}
+
+uint64_t* TaskTrace::begin_back(uint32_t tasks) {
+  if (!std::exchange(prepares_, false)) end_serial();
   serial_since_ = thread_nanoseconds();
   return add("back", tasks);
 }

@@ -20,6 +20,7 @@ uint64_t thread_clock_cost();
 //   pool THREADS
 //   serial T        outside of loops, since the event before
 //   front T T T...  a loop that was waited for, with its tasks
+//   prepare T       what has to be done, once, before the tasks of the next `back`; by anybody
 //   back T T T...   a loop that was begun, with its tasks
 //   wait            until the tasks of the last `back` were done
 //   picture         one was shown
@@ -35,6 +36,7 @@ class TaskTrace {
   // Where the tasks of a loop that begins now leave their times; valid until it has ended.
   uint64_t* begin_front(uint32_t tasks);
   void end_front();
+  uint64_t* begin_prepare();  // until begin_back()
   uint64_t* begin_back(uint32_t tasks);
   void begin_wait();
   void end_wait();
@@ -53,6 +55,7 @@ class TaskTrace {
   const uint64_t clock_cost_;  // in each time, until they are written
   std::vector<Event> events_;
   uint64_t serial_since_;
+  bool prepares_ = false;
 };
 
 }  // namespace halfspace::raster

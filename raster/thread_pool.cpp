@@ -17,6 +17,14 @@ void relax() {
 #endif
 }
 
+// For who waits for what another thread is about to finish.
+void relax_or_yield(int looks) {
+  if (looks < kLooks)
+    relax();
+  else
+    std::this_thread::yield();
+}
+
 uint64_t packed(uint32_t begin, uint32_t end) { return uint64_t{end} << 32 | begin; }
 
 }  // namespace
@@ -70,10 +78,14 @@ void TaskLoop::do_task(uint32_t task, int worker) {
   try {
     (*task_)(task, worker);
   } catch (...) {
-    const std::lock_guard lock(error_mutex_);
-    if (!error_) error_ = std::current_exception();
+    keep_exception();
   }
   if (times_ != nullptr) times_[task] = thread_nanoseconds() - start;
+}
+
+void TaskLoop::keep_exception() {
+  const std::lock_guard lock(error_mutex_);
+  if (!error_) error_ = std::current_exception();
 }
 
 // Whoever finds the loop open was counted before it looked, so that close() knows of it: of its own write and
@@ -100,12 +112,7 @@ bool TaskLoop::has_tasks() const {
 
 void TaskLoop::close() {
   open_.store(false);
-  for (int looks = 0; inside_.load() != 0; ++looks) {
-    if (looks < kLooks)
-      relax();
-    else
-      std::this_thread::yield();
-  }
+  for (int looks = 0; inside_.load() != 0; ++looks) relax_or_yield(looks);
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
@@ -151,6 +158,7 @@ void ThreadPool::serve(int worker) {
     // What the caller waits for comes first, also when it begins in the middle of the other.
     do {
       front_.help(worker);
+      prepare_back();
       back_.help(worker, &front_);
     } while (front_.has_tasks());
   }
@@ -158,6 +166,11 @@ void ThreadPool::serve(int worker) {
 
 void ThreadPool::wake() {
   if (threads_.empty()) start_threads();
+  announce();
+}
+
+// That there is a loop to help with.
+void ThreadPool::announce() {
   loops_.fetch_add(1);
   if (sleepers_.load() == 0) return;
   { const std::lock_guard lock(mutex_); }  // who counted itself a sleeper but does not sleep yet holds it
@@ -194,8 +207,39 @@ void ThreadPool::start(std::span<const uint32_t> ends, Task task) {
   wake();
 }
 
+void ThreadPool::start(Prepare prepare, Task task) {
+  if (size_ == 1) return start(prepare(), std::move(task));
+  wait();
+  back_task_ = std::move(task);
+  prepare_ = std::move(prepare);
+  preparation_ = Preparation::open;
+  busy_ = true;
+  if (trace_) prepare_back();  // a trace is written by one thread
+  wake();
+}
+
+// Where nobody has begun to.
+void ThreadPool::prepare_back() {
+  Preparation expected = Preparation::open;
+  if (preparation_.load() != expected || !preparation_.compare_exchange_strong(expected, Preparation::begun))
+    return;
+  try {
+    uint64_t* time = trace_ ? trace_->begin_prepare() : nullptr;
+    const uint64_t start = time != nullptr ? thread_nanoseconds() : 0;
+    const std::span<const uint32_t> ends = prepare_();
+    if (time != nullptr) *time = thread_nanoseconds() - start;
+    back_.open(ends, &back_task_, trace_ ? trace_->begin_back(ends.back()) : nullptr);
+  } catch (...) {
+    back_.keep_exception();
+  }
+  preparation_ = Preparation::done;
+  if (size_ > 2) announce();  // who came meanwhile has found nothing to do
+}
+
 void ThreadPool::wait() {
   if (!busy_) return;
+  prepare_back();
+  for (int looks = 0; preparation_.load() != Preparation::done; ++looks) relax_or_yield(looks);
   busy_ = false;
   if (trace_) trace_->begin_wait();
   back_.help(0);

@@ -34,6 +34,8 @@ class TaskLoop {
   bool has_tasks() const;
   // Once no task is left to take: returns when all are done, and throws the first exception of one.
   void close();
+  // Keeps the exception that is being handled for close().
+  void keep_exception();
 
  private:
   struct alignas(64) Stretch {
@@ -71,6 +73,11 @@ class ThreadPool {
   // The same, and returns at once: the tasks are done meanwhile, or by wait() at the latest. ends: as
   // TaskLoop::open takes them. One such loop at a time; run() may be called before it is waited for.
   void start(std::span<const uint32_t> ends, Task task);
+  // The same where something has to be done before it is known what the tasks are: by whichever thread comes
+  // first, once. What prepare() returns has to stay until the tasks are done; what it throws is thrown by
+  // wait(), without tasks.
+  using Prepare = std::function<std::span<const uint32_t>()>;
+  void start(Prepare prepare, Task task);
   // Helps with what start() began, and returns when it is done. Throws the first exception of a task.
   void wait();
   // Whether what the other threads have read is slow to write for the caller.
@@ -78,12 +85,15 @@ class ThreadPool {
   // Notes in the trace, if there is one, that a picture is finished.
   void note_picture();
   // Whether tasks of that loop still wait for somebody.
-  bool is_busy() const { return busy_ && back_.has_tasks(); }
+  bool is_busy() const { return busy_ && (preparation_.load() != Preparation::done || back_.has_tasks()); }
 
  private:
+  enum class Preparation { open, begun, done };
   void start_threads();
   void serve(int worker);
   void wake();
+  void announce();
+  void prepare_back();
 
   const int size_;
   std::vector<std::thread> threads_;
@@ -91,6 +101,8 @@ class ThreadPool {
   std::unique_ptr<TaskTrace> trace_;
   CacheDistance distance_;  // from the caller to the others
   Task back_task_;
+  Prepare prepare_;
+  std::atomic<Preparation> preparation_{Preparation::done};
   bool busy_ = false;
   std::vector<uint32_t> even_ends_;
   // Who finds no task watches the count of loops for a moment, then sleeps.

@@ -38,6 +38,18 @@ TEST(Schedule, TheBackGoesOnBesideTheCaller) {
   EXPECT_DOUBLE_EQ(frame("back 1000000 5000000 2000000\nserial 2000000\nwait\n", 2).frame_ms, 6);
 }
 
+TEST(Schedule, APreparationComesBeforeTheTasks) {
+  // The helper prepares until 3 and has both tasks done at 8, while the caller is busy.
+  const std::string prepared = "prepare 3000000\nback 2000000 3000000\n";
+  EXPECT_DOUBLE_EQ(frame(prepared + "serial 9000000\nwait\n", 2).frame_ms, 9);
+  // The caller comes back after 1, waits until 3, and takes one of the tasks.
+  EXPECT_DOUBLE_EQ(frame(prepared + "serial 1000000\nwait\n", 2).frame_ms, 6);
+  EXPECT_DOUBLE_EQ(frame(prepared + "serial 1000000\nwait\n", 1).frame_ms, 9);
+  // The helper does not wake before the caller has nothing else to do.
+  EXPECT_DOUBLE_EQ(frame(prepared + "serial 1000000\nwait\n", 2, 2000).frame_ms, 7);
+  EXPECT_DOUBLE_EQ(frame(prepared + "wait\n", 2).serial_share, 0);
+}
+
 TEST(Schedule, TheFrontGoesFirst) {
   // The helper has begun with the back when the loop opens at 1; until 4 the caller is alone with the front's
   // four tasks, and then has one left to do, which the helper begins at the same time as the caller could: 5.
@@ -53,7 +65,9 @@ TEST(Schedule, WakingTakesTime) {
 }
 
 TEST(Schedule, WhatIsNotATraceIsAnError) {
-  std::istringstream words("pool 2\nbehind 3\n"), letters("pool 2\nback 1 x\n"), none("pool 2\n");
+  std::istringstream words("pool 2\nbehind 3\n"), letters("pool 2\nback 1 x\n"), none("pool 2\n"),
+      two("pool 2\nprepare 1 2\n");
+  EXPECT_THROW(read_trace(two), std::runtime_error);
   EXPECT_THROW(read_trace(words), std::runtime_error);
   EXPECT_THROW(read_trace(letters), std::runtime_error);
   EXPECT_THROW(simulate(read_trace(none), 2, 0), std::runtime_error);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -109,6 +110,51 @@ TEST_P(ThreadPoolTest, APoolMayGoWhileItsTasksAreOpen) {
   {
     ThreadPool other(GetParam());
     other.start(lopsided(64, other.size()), [&](uint32_t i, int) { ++tally->done[i]; });
+  }
+  tally->expect_each(1);
+}
+
+// What has to be done before the tasks are known is done once, by whoever it is, and all of them see it.
+TEST_P(ThreadPoolTest, WhatIsPreparedIsThereForTheTasks) {
+  std::vector<uint32_t> values, done;
+  std::vector<uint32_t> ends;
+  for (uint32_t round = 1; round <= 200; ++round) {
+    const uint32_t count = round * 7 % 50;
+    const auto prepare = [&, count, round] {
+      values.assign(count, round);
+      done.assign(count, 0);
+      ends = lopsided(count, pool.size());
+      return std::span<const uint32_t>(ends);
+    };
+    pool.start(prepare, [&](uint32_t i, int) { done[i] += values[i]; });
+    if (round % 3 == 0) std::this_thread::yield();
+    if (round % 5 == 0) pool.run(4, [](uint32_t, int) {});
+    pool.wait();
+    ASSERT_EQ(done, std::vector<uint32_t>(count, round));
+  }
+}
+
+TEST_P(ThreadPoolTest, AFailedPreparationComesOutAndLeavesNoTask) {
+  Tally tally(8);
+  const auto fail = []() -> std::span<const uint32_t> { throw std::runtime_error("prepared"); };
+  EXPECT_THROW(pool.start(fail, [&](uint32_t i, int) { ++tally.done[i]; }); pool.wait(), std::runtime_error);
+  EXPECT_NO_THROW(pool.wait());
+  tally.expect_each(0);
+  pool.start(lopsided(8, pool.size()), [&](uint32_t i, int) { ++tally.done[i]; });
+  pool.wait();
+  tally.expect_each(1);
+}
+
+TEST_P(ThreadPoolTest, APoolMayGoBeforeAnythingIsPrepared) {
+  auto tally = std::make_unique<Tally>(64);
+  std::vector<uint32_t> ends;
+  {
+    ThreadPool other(GetParam());
+    const auto prepare = [&] {
+      ends = lopsided(64, other.size());
+      return std::span<const uint32_t>(ends);
+    };
+    other.start(prepare, [&](uint32_t i, int) { ++tally->done[i]; });
   }
   tally->expect_each(1);
 }
