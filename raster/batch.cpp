@@ -81,6 +81,7 @@ const DrawProgram& Batch::program_for(const std::shared_ptr<const DrawState>& st
   entry.state = state;
   entry.layout = layout;
   entry.format = format;
+  entry.number = static_cast<uint32_t>(views_.size());
   views_.push_back(view);
   if (view != nullptr) note_texture(*view);
   return entry;
@@ -92,7 +93,7 @@ bool Batch::is_covered_by(const ClearCommand& command, const Framebuffer::Impl& 
 }
 
 bool Batch::is_full(uint32_t scale, uint32_t packet_scale) {
-  size_t primitives = 0, packet_bytes = 0, touched = 0, widest = 0;
+  size_t primitives = waiting.primitives(), packet_bytes = 0, touched = 0, widest = 0;
   for (const Segment* segment : pending_) {
     primitives += segment->primitives.size();
     packet_bytes += segment->packet_bytes;
@@ -100,11 +101,14 @@ bool Batch::is_full(uint32_t scale, uint32_t packet_scale) {
     widest = std::max(widest, segment->touched.size());
   }
   const auto exceeds = [&](uint32_t times) {
-    return arena.bytes_in_use() > kMaxBytes * times || primitives > kMaxPrimitives * times;
+    return arena.bytes_in_use() + waiting.bytes_in_use() > kMaxBytes * times ||
+           primitives > kMaxPrimitives * times;
   };
   if (packet_bytes > kMaxPacketBytes * packet_scale) return true;
   const bool many_texels = textures_.size() > 1 && texture_bytes_ > kMaxTextureBytes;
-  if (many_texels || draws.size() >= kMaxDraws || exceeds(std::max(scale, kScatteredScale))) return true;
+  if (many_texels || draws.size() + waiting.size() >= kMaxDraws || exceeds(std::max(scale, kScatteredScale)))
+    return true;
+  if (!waiting.empty()) return exceeds(1);  // another thread may begin with them
   if (!exceeds(scale)) return false;
   if (tiles_at_limit_ == 0) tiles_at_limit_ = widest;
   const bool spreads = widest > tiles_at_limit_ + tiles_at_limit_ / 2;
@@ -155,6 +159,7 @@ void Batch::leave_caches() const {
     raster::leave_caches(list.data(), list.size() * sizeof *list.data());
   };
   arena.for_each_used(raster::leave_caches);
+  waiting.for_each_used(raster::leave_caches);
   for (const Segment* segment : pending_) {
     leave(segment->primitives);
     leave(segment->cut_triangles);
@@ -172,6 +177,7 @@ void Batch::discard() {
   last_is_open_ = false;
   tiles_at_limit_ = 0;
   draws.clear();
+  waiting.clear();
   images.clear();
   programs_.clear();
   views_.clear();

@@ -11,6 +11,7 @@
 #include "raster/primitive/pixel_rect.h"
 #include "raster/primitive/segment.h"
 #include "raster/recycled.h"
+#include "raster/waiting_draws.h"
 
 namespace halfspace::raster {
 
@@ -19,6 +20,7 @@ struct DrawProgram {
   std::shared_ptr<const DrawState> state;  // of the first draw that took it
   VertexLayout layout;
   ColorFormat format{};
+  uint32_t number = 0;  // among those of the batch
   PipelineProgram program;
 
   // What a draw with a state of its own goes by once its vertices are shaded. Where the two differ in their
@@ -48,7 +50,11 @@ class Batch {
   }
   // True if nothing of it would be seen after the clear.
   bool is_covered_by(const ClearCommand& command, const Framebuffer::Impl& target) const;
-  bool empty() const { return pending_.empty(); }
+  bool empty() const { return pending_.empty() && waiting.empty(); }
+  // Before another draw goes to the segments, and before tiles are dealt.
+  void take_up_waiting(const Framebuffer::Impl& target) {
+    if (!waiting.empty()) waiting.take_up(target, open_segment(target), arena);
+  }
   // Enough to be executed: memory stays bounded whatever a frame draws. `scale`: of the limits, but
   // `packet_scale` of that of points and lines.
   bool is_full(uint32_t scale, uint32_t packet_scale);
@@ -64,6 +70,7 @@ class Batch {
 
   Recycled<DrawRecord> draws;
   std::deque<PixelImage> images;
+  WaitingDraws waiting;
   Arena arena;
   std::vector<uint32_t> tiles, ends;
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "raster/batch.h"
+#include "raster/draw_area.h"
 #include "raster/primitive/assembly.h"
 #include "raster/primitive/index_part.h"
 #include "raster/primitive/packet_run.h"
@@ -64,16 +65,6 @@ int thread_count(const DeviceOptions& options) {
 bool fuses(const DeviceOptions& options) {
   const char* wish = std::getenv("HALFSPACE_FUSE");
   return options.fuse && (wish == nullptr || std::strcmp(wish, "0") != 0);
-}
-
-Rect draw_window(const DrawState& state, const Framebuffer::Impl& fb) {
-  const Rect whole{0, 0, fb.width, fb.height};
-  return state.raster.scissor_test ? intersect(whole, state.raster.scissor) : whole;
-}
-
-Rect draw_bounds(const DrawState& state, const Framebuffer::Impl& fb) {
-  const Viewport& v = state.viewport;
-  return intersect(draw_window(state, fb), {v.x, v.y, v.x + v.width, v.y + v.height});
 }
 
 }  // namespace
@@ -144,6 +135,7 @@ struct Device::Impl {
                      const DrawProgram& program);
   void draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
                  const DrawProgram& program, uint32_t first_vertex);
+  bool waits(const DrawPacket& packet, const ShapePlan& shape, const DrawProgram& program) const;
   void execute_if_full();
   void draw_pixels(const PixelPacket& packet);
   bool prepare_pixels(const PixelPacket& packet, const PipelineProgram& program);
@@ -292,7 +284,8 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
                                  const DrawProgram& program) {
   const uint32_t each = separate_vertices(packet.primitive);
   const uint32_t step = each * part_primitives({*packet.state, layout, shape, program.program}, packet);
-  if (each == 0 || packet.index_count <= step) return draw_part(packet, layout, shape, program, 0);
+  if (each == 0 || packet.index_count <= step || packet.gathered)
+    return draw_part(packet, layout, shape, program, 0);
   for (uint32_t first = 0; first < packet.index_count; first += step) {
     DrawPacket part = packet;
     part.index_count = std::min(step, packet.index_count - first);
@@ -317,18 +310,23 @@ void Device::Impl::draw_in_parts(const DrawPacket& packet, const VertexLayout& l
 void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layout, const ShapePlan& shape,
                              const DrawProgram& found, uint32_t first_vertex) {
   const PipelineProgram& program = found.program;
+  const uint32_t primitives = primitive_count(packet.primitive, packet.index_count);
+  note_targets(*packet.state, program);
+  if (waits(packet, shape, found)) {
+    filling->waiting.add(packet, found, primitives);
+    return execute_if_full();
+  }
+  filling->take_up_waiting(*target);
   DrawRecord& record = filling->draws.emplace_back();
   record.state = found.state_after_vertices(packet.state);
   record.bounds = draw_bounds(*packet.state, *target);
   record.window = draw_window(*packet.state, *target);
   record.program = &program;
-  note_targets(*packet.state, program);
   record.shape = shape;
   record.edge_flags = packet.batch.edge_flag;
   record.stipple_start = packet.continues ? stipple : 0;
   record.vertices.layout = layout;
   record.first_vertex = first_vertex;
-  const uint32_t primitives = primitive_count(packet.primitive, packet.index_count);
   const DrawPlan plan{*packet.state, layout, record.shape, program};
   record.runs_points = points_run(plan, packet.primitive) && !notes;
   record.runs_lines = lines_run(record, packet.primitive, primitives) && !notes;
@@ -353,6 +351,12 @@ void Device::Impl::draw_part(const DrawPacket& packet, const VertexLayout& layou
   record.given_vertices = nullptr, record.unshaded = nullptr;
   record.clip_distances = nullptr, record.clip_codes = record.edge_flags = nullptr;
   execute_if_full();
+}
+
+// With one thread there is nobody to leave it to; with many each draw is split among them.
+bool Device::Impl::waits(const DrawPacket& packet, const ShapePlan& shape, const DrawProgram& program) const {
+  return pool.size() > 1 && !meters && !notes &&
+         WaitingDraws::may_wait(packet, shape, program, has_few_threads());
 }
 
 void Device::Impl::execute_if_full() {
@@ -382,6 +386,7 @@ void Device::Impl::draw_pixels(const PixelPacket& packet) {
   if (!prepare_pixels(packet, program)) return;
   const Rect limit = draw_window(*packet.state, *target);
   const bool keep = is_small(packet);
+  filling->take_up_waiting(*target);
   PixelImage& image = filling->images.emplace_back();
   if (!lay_out_pixels(packet, layout, limit, keep, filling->arena, image)) return;
   ++statistics.draws;
@@ -432,8 +437,8 @@ void Device::Impl::show_tile(uint32_t tile, bool by_rows, const LinearImage& ima
 void Device::Impl::hand_over(const LinearImage* image, ColorPlane plane) {
   settle();
   Batch& batch = *filling;
-  if (!batch.empty()) ++statistics.passes;
-  batch.deal_tiles(*target, image != nullptr, pool.size());
+  const bool draws = !batch.empty();
+  if (draws) ++statistics.passes;
   counts.assign(static_cast<size_t>(pool.size()), {});
   worker_meters.assign(meters ? counts.size() : 0, {});
   if (notes) notes->attend(*target);
@@ -443,23 +448,33 @@ void Device::Impl::hand_over(const LinearImage* image, ColorPlane plane) {
   const LinearImage shown = image != nullptr ? *image : LinearImage();
   const bool shows = image != nullptr;
   // Memory takes whole rows faster than tiles; but a tile that was drawn is in its own worker's cache.
-  const bool by_rows = pool.size() == 1 || batch.empty();
-  pool.start(batch.ends, [this, &batch, shows, shown, by_rows, plane](uint32_t i, int worker) {
+  const bool by_rows = pool.size() == 1 || !draws;
+  const auto prepare = [this, &batch, shows] {
+    batch.take_up_waiting(*target);
+    batch.deal_tiles(*target, shows, pool.size());
+    return std::span<const uint32_t>(batch.ends);
+  };
+  const auto task = [this, &batch, draws, shows, shown, by_rows, plane](uint32_t i, int worker) {
     const auto at = static_cast<size_t>(worker);
     TileStatistics local;
     if (meters) local.meter = &worker_meters[at];
     if (notes) local.notes = notes->tile(batch.tiles[i]);
-    if (!batch.empty()) run_tile(batch.segments(), *target, batch.tiles[i], batch.tile_after(i), local);
+    if (draws) run_tile(batch.segments(), *target, batch.tiles[i], batch.tile_after(i), local);
     if (shows && notes) notes->paint_tile(*target, batch.tiles[i], plane_index(plane));
     if (shows) show_tile(batch.tiles[i], by_rows, shown, plane);
     counts[at].fragments += local.fragments;
     counts[at].double_fragments += local.double_fragments;
-  });
+  };
+  if (batch.waiting.empty())
+    pool.start(prepare(), task);
+  else
+    pool.start(prepare, task);
   if (pool.size() == 1) settle();
 }
 
 void Device::Impl::execute(const LinearImage* image, ColorPlane plane) {
   if (target == nullptr) return;
+  filling->take_up_waiting(*target);  // while others still draw what came before
   if (image != nullptr || !filling->empty()) hand_over(image, plane);
   settle();
   if (image != nullptr) pool.note_picture();
@@ -478,7 +493,10 @@ void Device::begin_pass(Framebuffer* target) {
 
 void Device::clear(const ClearCommand& command) {
   if (impl_->target == nullptr) return;
-  if (impl_->filling->is_covered_by(command, *impl_->target)) impl_->discard(*impl_->filling);
+  if (impl_->filling->is_covered_by(command, *impl_->target)) {
+    impl_->filling->take_up_waiting(*impl_->target);  // which counts them
+    impl_->discard(*impl_->filling);
+  }
   impl_->execute(nullptr);
   // What was drawn before is not to be seen in a view either.
   if (impl_->notes && command.color && clears_everything(*impl_->target, command)) impl_->notes->forget();

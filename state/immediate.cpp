@@ -57,6 +57,7 @@ void draw_gathered(Context& context, GLenum mode, uint32_t count) {
   packet.state = im.state;
   packet.primitive = primitive_of(mode);
   packet.continues = im.strip_goes_on;
+  packet.gathered = true;
   packet.index_count = packet.batch.count = count;
   if (im.shared.active()) {
     packet.indices = im.shared.indices();

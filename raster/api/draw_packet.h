@@ -60,6 +60,8 @@ struct DrawPacket {
   const IndexRange* index_ranges = nullptr;
   // A line strip that goes on where the draw before this one ended: the line stipple runs on.
   bool continues = false;
+  // The vertices came one by one: who makes such draws has more to do than who shades them.
+  bool gathered = false;
   std::span<const MaterialPair> materials;
 };
 

@@ -15,7 +15,9 @@ class ClipPositions {
  public:
   ClipPositions() = default;
   ClipPositions(const AttributeStream& position, const DrawState& state)
-      : position_(position), m_(state.clip_from_object.data()) {}
+      : ClipPositions(position, state.clip_from_object.data()) {}
+  ClipPositions(const AttributeStream& position, const double* clip_from_object)
+      : position_(position), m_(clip_from_object) {}
   ClipVertex operator[](uint32_t vertex) const;
 
  private:

@@ -429,9 +429,10 @@ struct Target {
 };
 
 // Positions and colours, as they are.
-ShadeJob plain_job(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout) {
+ShadeJob plain_job(const DrawState& state, const double* clip_from_object, const VertexBatch& batch,
+                   const VertexLayout& layout) {
   ShadeJob job;
-  job.m = state.clip_from_object.data();
+  job.m = clip_from_object;
   job.window = make_window_transform(state.viewport);
   job.position = stream_ref(batch.position, kDefaultCoord);
   job.color = stream_ref(batch.color, kDefaultColor);
@@ -439,9 +440,10 @@ ShadeJob plain_job(const DrawState& state, const VertexBatch& batch, const Verte
   return job;
 }
 
-void run_job(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
-             int tex_coord_count, uint32_t first, uint32_t count, const Target& target) {
-  ShadeJob job = plain_job(state, batch, target.layout);
+void run_job(const DrawState& state, const double* clip_from_object, const VertexBatch& batch,
+             std::span<const MaterialPair> materials, int tex_coord_count, uint32_t first, uint32_t count,
+             const Target& target) {
+  ShadeJob job = plain_job(state, clip_from_object, batch, target.layout);
   job.texture_matrix = state.texture.matrix.data();
   job.use_texture_matrix = !state.texture.matrix_is_identity;
   job.tex_coord_count = tex_coord_count;
@@ -478,19 +480,26 @@ VertexAttributes attributes_of(const FullRecord& r, bool two_sided) {
 
 }  // namespace
 
+void shade_vertices(const DrawState& state, const double* clip_from_object, const VertexBatch& batch,
+                    std::span<const MaterialPair> materials, uint32_t first, uint32_t count,
+                    ShadedVertices& out) {
+  run_job(state, clip_from_object, batch, materials, out.layout.projective ? 3 : 2, first, count,
+          {out.layout, out.records, out.outcodes.data()});
+}
+
 void shade_vertices(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
                     uint32_t first, uint32_t count, ShadedVertices& out) {
-  run_job(state, batch, materials, out.layout.projective ? 3 : 2, first, count,
-          {out.layout, out.records, out.outcodes.data()});
+  shade_vertices(state, state.clip_from_object.data(), batch, materials, first, count, out);
 }
 
 void place_points(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout,
                   const PointJob& points, uint32_t first, uint32_t count) {
-  vertex_kernels().place_points(plain_job(state, batch, layout), points, first, count);
+  vertex_kernels().place_points(plain_job(state, state.clip_from_object.data(), batch, layout), points, first,
+                                count);
 }
 
 LineEndShader::LineEndShader(const DrawState& state, const VertexBatch& batch, const VertexLayout& layout)
-    : job_(plain_job(state, batch, layout)), run_(vertex_kernels().shade_ends) {}
+    : job_(plain_job(state, state.clip_from_object.data(), batch, layout)), run_(vertex_kernels().shade_ends) {}
 
 void shade_attributes(const DrawState& state, const VertexBatch& batch, std::span<const MaterialPair> materials,
                       std::span<VertexAttributes> out) {
@@ -504,8 +513,8 @@ void shade_attributes(const DrawState& state, const VertexBatch& batch, std::spa
   uint16_t outcodes[kVertexGroup];
   for (size_t first = 0; first < out.size(); first += kVertexGroup) {
     const size_t count = std::min<size_t>(kVertexGroup, out.size() - first);
-    run_job(state, part_of(batch, uint32_t(first), uint32_t(count)), materials, 4, 0, uint32_t(count),
-            {layout, records, outcodes});
+    run_job(state, state.clip_from_object.data(), part_of(batch, uint32_t(first), uint32_t(count)), materials,
+            4, 0, uint32_t(count), {layout, records, outcodes});
     for (size_t i = 0; i < count; ++i) out[first + i] = attributes_of(records[i], two_sided);
   }
 }

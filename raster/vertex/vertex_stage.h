@@ -24,6 +24,10 @@ inline void shade_vertices(const DrawState& state, const VertexBatch& batch, uin
                            ShadedVertices& out) {
   shade_vertices(state, batch, {}, first, count, out);
 }
+// The same, with the 16 values at clip_from_object in place of the state's; at less than the exact level.
+void shade_vertices(const DrawState& state, const double* clip_from_object, const VertexBatch& batch,
+                    std::span<const MaterialPair> materials, uint32_t first, uint32_t count,
+                    ShadedVertices& out);
 
 // Shades vertices [first, first + count) of the batch, each a point of one pixel, right into their tiles'
 // packets. For draws without lighting, textures and fog, at less than the exact level.
