@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstring>
+#include <vector>
 
 #include "raster/batch.h"
 #include "raster/draw_area.h"
@@ -119,17 +120,49 @@ struct KeptStreams {
   }
 };
 
-// Primitives and planes that were made for vertices from 0 on are of those from `first_vertex` on.
-void renumber(Segment& segment, size_t first_primitive, size_t first_source, uint32_t first_vertex) {
-  if (first_vertex == 0) return;
-  for (size_t i = first_primitive; i < segment.primitives.size(); ++i) {
-    PrimitiveRef& ref = segment.primitives[i];
-    if (ref.cut) continue;
-    for (uint32_t& v : ref.v) v += first_vertex;
+// While it lives, vertices that several draws share are those from `first_vertex` on alone, with room for
+// their outcodes. What was made of them meanwhile is told afterwards where they stand among all.
+class OneOfJoined {
+ public:
+  OneOfJoined(ShadedVertices& vertices, uint32_t first_vertex, Segment& segment,
+              std::vector<uint16_t>& outcodes)
+      : vertices_(vertices),
+        all_(vertices.records),
+        first_vertex_(first_vertex),
+        segment_(segment),
+        first_primitive_(segment.primitives.size()),
+        first_source_(segment.plane_sources.size()),
+        outcodes_(outcodes) {
+    vertices_.records += first_vertex * vertices_.layout.stride();
+    vertices_.outcodes.swap(outcodes_);
   }
-  for (size_t i = first_source; i < segment.plane_sources.size(); ++i)
-    segment.plane_sources[i].provoking += first_vertex;
-}
+  ~OneOfJoined() {
+    vertices_.outcodes.swap(outcodes_);
+    vertices_.clip = {};
+    vertices_.records = all_;
+    if (first_vertex_ != 0) renumber();
+  }
+  OneOfJoined(const OneOfJoined&) = delete;
+  OneOfJoined& operator=(const OneOfJoined&) = delete;
+
+ private:
+  void renumber() {
+    for (size_t i = first_primitive_; i < segment_.primitives.size(); ++i) {
+      PrimitiveRef& ref = segment_.primitives[i];
+      if (ref.cut) continue;
+      for (uint32_t& v : ref.v) v += first_vertex_;
+    }
+    for (size_t i = first_source_; i < segment_.plane_sources.size(); ++i)
+      segment_.plane_sources[i].provoking += first_vertex_;
+  }
+
+  ShadedVertices& vertices_;
+  std::byte* const all_;
+  const uint32_t first_vertex_;
+  Segment& segment_;
+  const size_t first_primitive_, first_source_;
+  std::vector<uint16_t>& outcodes_;
+};
 
 }  // namespace
 
@@ -231,22 +264,13 @@ void WaitingDraws::take_up(const void* kept, const Framebuffer::Impl& target, Se
   const KeptDraw& draw = *static_cast<const KeptDraw*>(kept);
   const KeptStreams streams(draw);
   Joined& joined = joined_for(kept, target, arena);
-  ShadedVertices& vertices = joined.record->vertices;
   if (outcodes_.size() < draw.count) outcodes_.resize(draw.count);
-  // For as long as it is assembled the record is about this draw's vertices alone.
-  std::byte* const all = vertices.records;
-  vertices.records += joined.taken_up * vertices.layout.stride();
-  vertices.outcodes.swap(outcodes_);
-  vertices.clip = {streams.batch.position, streams.clip_from_object};
-  shade_vertices(*draw.state, streams.clip_from_object, streams.batch, streams.materials, 0, draw.count,
-                 vertices);
-  const size_t first_primitive = segment.primitives.size(), first_source = segment.plane_sources.size();
-  assemble(*joined.record, draw.primitive, streams.indices, draw.index_count, 0, draw.primitives, segment);
-  vertices.outcodes.swap(outcodes_);
-  vertices.clip = {};
-  vertices.records = all;
-  renumber(segment, first_primitive, first_source, joined.taken_up);
+  const OneOfJoined one(joined.record->vertices, joined.taken_up, segment, outcodes_);
   joined.taken_up += draw.count;
+  joined.record->vertices.clip = {streams.batch.position, streams.clip_from_object};
+  shade_vertices(*draw.state, streams.clip_from_object, streams.batch, streams.materials, 0, draw.count,
+                 joined.record->vertices);
+  assemble(*joined.record, draw.primitive, streams.indices, draw.index_count, 0, draw.primitives, segment);
 }
 
 void WaitingDraws::take_up(const Framebuffer::Impl& target, Segment& segment, Arena& arena) {
