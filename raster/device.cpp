@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "raster/batch.h"
+#include "raster/device_options.h"
 #include "raster/draw_area.h"
 #include "raster/primitive/assembly.h"
 #include "raster/primitive/index_part.h"
@@ -48,24 +45,6 @@ constexpr int kFewThreads = 4;
 constexpr uint32_t kParallelPrimitives = 2048;  // a part of fewer is not split over threads
 constexpr uint32_t kVerticesPerTask = 2048;     // about
 constexpr uint32_t kShadedAtOnce = 16;          // vertices: whole vectors at every level
-
-int thread_count(const DeviceOptions& options) {
-  if (options.threads > 0) return std::min(options.threads, 256);
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const char* wish = std::getenv("HALFSPACE_THREADS");
-  if (wish == nullptr || *wish == '\0') return cores;
-  char* end = nullptr;
-  const long n = std::strtol(wish, &end, 10);
-  if (*end == '\0' && n >= 1 && n <= 256) return static_cast<int>(n);
-  std::fprintf(stderr, "halfspace: HALFSPACE_THREADS=%s is not a number from 1 to 256; using %d\n", wish,
-               cores);
-  return cores;
-}
-
-bool fuses(const DeviceOptions& options) {
-  const char* wish = std::getenv("HALFSPACE_FUSE");
-  return options.fuse && (wish == nullptr || std::strcmp(wish, "0") != 0);
-}
 
 }  // namespace
 

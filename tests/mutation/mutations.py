@@ -39,11 +39,20 @@ MUTATIONS = [
     Mutation("tiles whose edge value is zero are left out", "raster/primitive/binning.cpp",
              "(e0.value | e1.value | e2.value) >= 0", "e0.value > 0 && e1.value > 0 && e2.value > 0",
              "coverage_test:Coverage.EdgesThroughTheCornersOfTiles"),
-    Mutation("the scissor takes one column more", "raster/device.cpp",
+    Mutation("the scissor takes one column more", "raster/draw_area.h",
              "intersect(whole, state.raster.scissor)",
              "intersect(whole, Rect{state.raster.scissor.x0, state.raster.scissor.y0, state.raster.scissor.x1 + 1, "
              "state.raster.scissor.y1})",
              "translation_test:Translation.CuttingLeavesThePixelsInside"),
+
+    # ---- draws that wait for another thread
+    Mutation("an image goes before draws that wait", "raster/device.cpp",
+             "const bool keep = is_small(packet);\n  filling->take_up_waiting(*target);",
+             "const bool keep = is_small(packet);", "waiting_draws_test:*"),
+    Mutation("draws that share a record keep the numbers of their vertices", "raster/waiting_draws.cpp",
+             "if (first_vertex_ != 0) renumber();", "", "waiting_draws_test:*"),
+    Mutation("draws share a record whatever their states", "raster/waiting_draws.cpp",
+             "draw.joins = draw.state == program.state.get();", "draw.joins = true;", "waiting_draws_test:*"),
 
     # ---- clipping
     Mutation("a new corner depends on the end it is reckoned from", "raster/primitive/clip.cpp",
