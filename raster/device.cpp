@@ -191,7 +191,10 @@ void Device::Impl::find_clip_distances(const DrawPacket& packet, DrawRecord& rec
 // Whether what was made of a draw whose lines are packets refers to its vertices.
 bool Device::Impl::assemble_draw(DrawRecord& record, const DrawPacket& packet, uint32_t primitives) {
   // The stipple of a line starts where the one before it ended.
-  if (!splits() || primitives < kParallelPrimitives || record.shape.stippled_lines) {
+  // Points that become packets at once are seen by nobody else until their tiles are drawn, which takes less.
+  const bool only_packets = record.runs_points && record.given_vertices != nullptr;
+  const bool split = splits() || (pool.size() > 1 && only_packets);
+  if (!split || primitives < kParallelPrimitives || record.shape.stippled_lines) {
     Segment& segment = filling->open_segment(*target);
     assemble(record, packet.primitive, packet.indices, packet.index_count, 0, primitives, segment);
     stipple = segment.stipple_end;
