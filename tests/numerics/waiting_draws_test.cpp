@@ -112,11 +112,11 @@ class Stream {
           i < textures_.size() ? textures_[i].view(sampler_of(Filter::linear, Wrap::repeat)) : nullptr;
       return;
     }
-    state_.clip_from_object[0] = random_.real(0.2f, 1.5f);
-    state_.clip_from_object[12] = random_.real(-1, 1);
-    state_.clip_from_object[13] = random_.real(-1, 1);
+    state_.clip_from_object[0] = double(random_.real(0.2f, 1.5f));
+    state_.clip_from_object[12] = double(random_.real(-1, 1));
+    state_.clip_from_object[13] = double(random_.real(-1, 1));
     state_.clip_from_object[11] = chance(3) ? 0.5 : 0;
-    state_.eye_from_object[14] = random_.real(-2, 0);
+    state_.eye_from_object[14] = double(random_.real(-2, 0));
   }
 
   void draw(Device& device, Primitive primitive, int64_t vertices, bool gathered = false) {
@@ -173,9 +173,9 @@ class Stream {
     packet.width = packet.height = 4;
     packet.row_elements = 4;
     packet.color = colors.data();
-    packet.x = random_.real(0, kWidth), packet.y = random_.real(0, kHeight);
+    packet.x = double(random_.real(0, kWidth)), packet.y = double(random_.real(0, kHeight));
     packet.zoom_x = packet.zoom_y = 5;
-    packet.raster_depth = random_.real(0, 1);
+    packet.raster_depth = double(random_.real(0, 1));
     device.draw_pixels(packet);
   }
 
