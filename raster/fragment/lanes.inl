@@ -71,6 +71,13 @@ HWY_INLINE VI NearestInRange(VF v) {
 #endif
 }
 
+// Held from above or below by something that is not negative: floats then have the order of their bits. A comparison of
+// integers takes any unit, one of floats those that add. A NaN is held, too, or is as a negative number would be.
+HWY_INLINE VF HeldBelow(VF v, VF most) {
+  return hn::BitCast(DF(), hn::Min(hn::BitCast(DI(), v), hn::BitCast(DI(), most)));
+}
+HWY_INLINE VF NotNegative(VF v) { return hn::BitCast(DF(), hn::Max(hn::BitCast(DI(), v), hn::Zero(DI()))); }
+
 // Iota is always taken from 0, a constant: from a variable it goes through memory and stalls.
 
 // What the stages of a fused kernel hand on in registers.

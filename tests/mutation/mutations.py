@@ -102,7 +102,7 @@ MUTATIONS = [
              "hn::Sqrt(hn::Mul(hn::Sqrt(squared), hn::Set(d, 1 / 2.05)))", "hn::Sqrt(hn::Mul(hn::Sqrt(squared), hn::Set(d, 1e9)))",
              "precision_test:*"),
     Mutation("smooth colours are not held to 255", STAGES + "color.inl",
-             "x = hn::Min(x, hn::Set(DF(), 255.0f))", "x = hn::Min(x, hn::Set(DF(), 300.0f))",
+             "x = HeldBelow(x, hn::Set(DF(), 255.0f))", "x = HeldBelow(x, hn::Set(DF(), 300.0f))",
              "color_test:Color.NothingIsBrighterThanWhite"),
     Mutation("the first vertex of a triangle provokes", "raster/primitive/patterns.h",
              "struct ListTriangles {\n  static constexpr uint8_t kProvoking = 2",

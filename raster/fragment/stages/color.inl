@@ -88,8 +88,8 @@ struct ColorSmooth {
 
  private:
   static HWY_INLINE VF Clamp(VF x) {
-    if constexpr (kHeld == Held::both_ways) x = hn::Max(x, hn::Zero(DF()));
-    if constexpr (kHeld != Held::not_at_all) x = hn::Min(x, hn::Set(DF(), 255.0f));
+    if constexpr (kHeld == Held::both_ways) x = NotNegative(x);
+    if constexpr (kHeld != Held::not_at_all) x = HeldBelow(x, hn::Set(DF(), 255.0f));
     return x;
   }
   static HWY_INLINE VF InFloat(VF value, VF w) { return Clamp(kDivides ? hn::Mul(value, w) : value); }

@@ -7,14 +7,15 @@ HWY_INLINE VF Log2(VF x) {
   const DI di;
   const VI bits = hn::BitCast(di, x);
   const VI shifted = hn::Sub(bits, hn::Set(di, 0x3f400000));  // 0.75f
-  const VI exponent = hn::ShiftRight<23>(shifted);
-  const VF t = hn::Sub(hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), hn::Set(d, 1.0f));
+  // Times 2^23. Nothing is shifted, since the units that do are those that add.
+  const VI exponent = hn::And(shifted, hn::Set(di, ~0x7fffff));
+  const VF t = hn::Sub(hn::BitCast(d, hn::Sub(bits, exponent)), hn::Set(d, 1.0f));
   VF p = hn::Set(d, 0.197522074f);
   p = hn::Add(hn::Mul(p, t), hn::Set(d, -0.377522558f));
   p = hn::Add(hn::Mul(p, t), hn::Set(d, 0.491849184f));
   p = hn::Add(hn::Mul(p, t), hn::Set(d, -0.721219659f));
   p = hn::Add(hn::Mul(p, t), hn::Set(d, 1.44244754f));
-  return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(p, t));
+  return hn::Add(hn::Mul(hn::ConvertTo(d, exponent), hn::Set(d, 0x1p-23f)), hn::Mul(p, t));
 }
 HWY_INLINE VF HalfLog2(VF rho2) {
   const DF d;

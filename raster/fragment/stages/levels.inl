@@ -11,12 +11,12 @@ struct ChooseLevel {
     const VF lambda = v.slot[kLambda];
     const MF magnify = hn::Le(lambda, hn::Set(d, p.magnify_below));
     const VF last = hn::Set(d, static_cast<float>(p.level_count - 1));
-    const VF clamped = hn::Min(hn::Max(lambda, hn::Zero(d)), last);
+    const VF clamped = HeldBelow(NotNegative(lambda), last);
     VF level = hn::Zero(d), blend = hn::Zero(d);
     if (p.sampler.mip == MipMode::nearest) {
       // d = ceil(lambda + 1/2) - 1, level 0 for lambda <= 1/2.
       const VF up = hn::Sub(hn::Ceil(hn::Add(clamped, hn::Set(d, 0.5f))), hn::Set(d, 1.0f));
-      level = hn::Min(hn::Max(up, hn::Zero(d)), last);
+      level = HeldBelow(NotNegative(up), last);
     } else if (p.sampler.mip == MipMode::linear) {
       level = hn::Floor(clamped);
       blend = hn::Sub(clamped, level);

@@ -185,6 +185,16 @@ HWY_INLINE Footprints LoadFootprints(const LaneOffsets& offsets, const uint32_t*
 }
 #endif
 
+// The upper half of each in the lower one's place; what lies above it is for masks to take away. With AVX-512 turning
+// takes the units that multiply, shifting those that add.
+HWY_INLINE VU UpperFirst(VU texel) {
+#if HWY_TARGET == HWY_AVX3
+  return hn::RotateRight<16>(texel);
+#else
+  return hn::ShiftRight<16>(texel);
+#endif
+}
+
 // A byte of each texel as a float, without a conversion: floats from 2^23 to 2^24 are whole numbers with the byte in
 // their last bits, and those from 2^15 on have whole numbers' bits eight places further up. So a shift serves two
 // channels; what the byte is lifted by differs.
@@ -192,7 +202,7 @@ constexpr float lift_of(int channel) { return channel % 2 == 0 ? 8388608.0f : 32
 template <int kChannel>
 HWY_INLINE VF Lifted(VU texel) {
   const DU d;
-  if constexpr (kChannel >= 2) texel = hn::ShiftRight<16>(texel);
+  if constexpr (kChannel >= 2) texel = UpperFirst(texel);
   const VU byte = hn::Set(d, kChannel % 2 == 0 ? 0xffu : 0xff00u);
   const VU lift = hn::BitCast(d, hn::Set(DF(), lift_of(kChannel)));
 #if HWY_TARGET == HWY_AVX3
@@ -355,9 +365,11 @@ HWY_INLINE Place FindPlace(const LevelRef& level, Wrap wrap_s, Wrap wrap_t, VF s
   const VI y = TexelIndex(v0, hn::Set(di, level.height_i), -1);
   return {TexelOffset(level, x, y), hn::Sub(u, u0), hn::Sub(v, v0)};
 }
-// A coordinate under REPEAT: in [0, 1] for whatever number; what is none becomes 0 (the first operand's, in Max), since
-// dead lanes are looked up.
-HWY_INLINE VF InOneTurn(VF v) { return hn::Max(hn::Sub(v, hn::Floor(v)), hn::Zero(DF())); }
+// A coordinate under REPEAT: in [0, 1] for whatever number; what is none becomes 1, since dead lanes are looked up.
+HWY_INLINE VF InOneTurn(VF v) {
+  const VU turn = hn::BitCast(DU(), hn::Sub(v, hn::Floor(v)));  // never negative: has the order of its bits
+  return hn::BitCast(DF(), hn::Min(turn, hn::BitCast(DU(), hn::Set(DF(), 1.0f))));
+}
 
 // The same for REPEAT both ways, and coordinates in one turn: in the level without being held there.
 struct RepeatedLevel {
