@@ -1,10 +1,11 @@
 // Pixels of 8-bit surfaces, a 32-bit lane each, R in the lowest byte. Compiled once per ISA level.
 
-// Channels in 0..255, unrounded, to the nearest bytes; what lies beyond the range is held to it.
+// Channels in 0..255, unrounded, to the nearest bytes.
 HWY_INLINE VI RoundToByte(VF v) { return TruncateInRange(hn::Add(v, hn::Set(DF(), 0.5f))); }
 
-HWY_INLINE VI RoundToPixel(VF r, VF g, VF b, VF a) {
-  const VI channel[4] = {RoundToByte(r), RoundToByte(g), RoundToByte(b), RoundToByte(a)};
+// What lies beyond the range is held to it.
+HWY_INLINE VI PackPixel(VI r, VI g, VI b, VI a) {
+  const VI channel[4] = {r, g, b, a};
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4
   // Packing saturates. In each 128 bits: four R, four G, four B, four A.
   const hn::Repartition<int16_t, DI> words;
@@ -28,6 +29,10 @@ HWY_INLINE VI RoundToPixel(VF r, VF g, VF b, VF a) {
   return hn::Or(hn::Or(held(0), hn::ShiftLeft<8>(held(1))),
                 hn::Or(hn::ShiftLeft<16>(held(2)), hn::ShiftLeft<24>(held(3))));
 #endif
+}
+
+HWY_INLINE VI RoundToPixel(VF r, VF g, VF b, VF a) {
+  return PackPixel(RoundToByte(r), RoundToByte(g), RoundToByte(b), RoundToByte(a));
 }
 
 // Two channels a lane, 16 bits each: r and b, g and a.

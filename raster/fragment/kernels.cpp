@@ -34,6 +34,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fragment/stages/lambda.inl"
 #include "raster/fragment/stages/logic_op.inl"
 #include "raster/fragment/stages/sample.inl"
+#include "raster/fragment/stages/sample_draft.inl"
 #include "raster/fragment/stages/levels.inl"
 #include "raster/fragment/stages/stencil.inl"
 #include "raster/fragment/stages/wide_planes.inl"

@@ -132,7 +132,7 @@ void add_lookup(const TextureView& view, const Accuracy& accuracy, bool projecti
     return list.add(sample_nearest);
   }
   if (accuracy.filter == Level::draft) {
-    list.add(repeat ? footprint_draft_repeat : footprint_draft);
+    list.add(repeat && has_sizes_of_two(*view.levels[0]) ? footprint_draft_repeat : footprint_draft);
     return list.add(sample_linear_draft);
   }
   list.add(repeat ? footprint_repeat : footprint);
@@ -325,8 +325,24 @@ void add_fog(const DrawState& state, unsigned variant, StageList& list) {
   list.add(fog);
 }
 
+// A colour in perspective that comes before the last stage, modulated by what draft's filter has looked up,
+// is less work as shares.
+bool modulate_shares(StageList& list) {
+  using enum StageId;
+  if (list.count < 3) return false;
+  StageId* const stages = list.ids.data() + list.count - 3;
+  StageId &color = stages[1], &env = stages[2];
+  const bool looked_up = stages[0] == sample_linear_draft || stages[0] == sample_levels_draft;
+  const bool modulated = env == modulate_rgb || env == modulate_rgba;
+  if (!looked_up || color != color_perspective_at_w || !modulated) return false;
+  color = color_shares_at_w;
+  env = env == modulate_rgb ? modulate_shares_rgb : modulate_shares_rgba;
+  return true;
+}
+
 // Rounding holds colours to their range, so that a colour which comes right before it need not do so.
 void add_rounding(StageList& list) {
+  if (modulate_shares(list)) return list.add(StageId::round_to_even_rgba8);
   if (list.count > 0) {
     StageId& last = list.ids[static_cast<size_t>(list.count - 1)];
     if (last == StageId::color_affine) last = StageId::color_affine_open;

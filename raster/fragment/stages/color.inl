@@ -99,3 +99,22 @@ struct ColorSmooth {
     return Clamp(DemoteGroup(DF(), value));
   }
 };
+
+// The draft level, before texels that modulate: as shares of white, so that no product with a texel needs a factor. Held
+// from above, as Held::from_above is.
+struct ColorShares {
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
+  template <class L>
+  using Once = typename ColorSmooth<0, true>::template Once<L>;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int i, Lanes& v) {
+    const VF w = hn::Mul(v.slot[kW], hn::Set(DF(), 1.0f / 255.0f));
+    v.slot[kR] = Share(once.r.At(i), w);
+    v.slot[kG] = Share(once.g.At(i), w);
+    v.slot[kB] = Share(once.b.At(i), w);
+    v.slot[kA] = Share(once.a.At(i), w);
+  }
+
+ private:
+  static HWY_INLINE VF Share(VF value, VF w) { return HeldBelow(hn::Mul(value, w), hn::Set(DF(), 1.0f)); }
+};

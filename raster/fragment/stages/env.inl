@@ -39,3 +39,16 @@ struct EnvBlendIntensity {
       v.slot[kR + k] = Mix(v.slot[kR + k], hn::Set(DF(), c.params->env_color[k]), v.slot[kTexR + k]);
   }
 };
+
+// GL_MODULATE of shares (ColorShares).
+template <bool kAlpha>
+struct ModulateShares {
+  static constexpr bool kKills = false, kPacks = true, kInTiles = true;
+  template <class L>
+  using Once = NothingOnce;
+  template <class L>
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>&, int, Lanes& v) {
+    for (int k = 0; k < 3; ++k) v.slot[kR + k] = hn::Mul(v.slot[kR + k], v.slot[kTexR + k]);
+    v.slot[kA] = hn::Mul(v.slot[kA], kAlpha ? v.slot[kTexA] : hn::Set(DF(), 255.0f));
+  }
+};

@@ -1,12 +1,15 @@
 // To memory (spec 4.2), and only the channels the colour mask lets through. Bytes are rounded to nearest (spec 2.14.9).
 
+// kToEven: where two are as near, the even one, as llvmpipe does; else the upper one.
+template <bool kToEven>
 struct RoundRgba8 {
   static constexpr bool kKills = false, kPacks = true, kInTiles = true;
   template <class L>
   using Once = NothingOnce;
   template <class L>
   static HWY_INLINE void Run(const BlockContext&, const Once<L>&, int, Lanes& v) {
-    v.slot[kPixel] = hn::BitCast(DF(), RoundToPixel(v.slot[kR], v.slot[kG], v.slot[kB], v.slot[kA]));
+    const auto byte = [&v](int k) HWY_ATTR { return kToEven ? NearestInRange(v.slot[k]) : RoundToByte(v.slot[k]); };
+    v.slot[kPixel] = hn::BitCast(DF(), PackPixel(byte(kR), byte(kG), byte(kB), byte(kA)));
   }
 };
 
