@@ -79,7 +79,8 @@ enum Slot {
 
 // Fragments of small triangles waiting to be shaded together. Filled by raster/tile/packing.inl.
 struct alignas(64) PixelQueue {
-  static constexpr int kCapacity = kBlockPixels, kSlack = 16;  // a whole vector may be stored at the last place
+  static constexpr int kCapacity = 4 * kBlockPixels;
+  static constexpr int kSlack = 16;  // a whole vector may be stored at the last place
   float plane[kMaxPlanes][kCapacity + kSlack];                 // values of planes 1 and up
   int32_t offset[kCapacity + kSlack];                          // pixel in the tile
   int count = 0;

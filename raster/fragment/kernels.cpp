@@ -256,6 +256,8 @@ HWY_INLINE bool RunWholeBlock(BlockContext& c, const OnceOf<L, id>& once, int sl
       [&](const Lanes& v, int i) HWY_ATTR { StoreSlots<LeftSlots<id>()>(v, i, c); });
 }
 
+#include "raster/fragment/packed_lanes.inl"
+
 // Stages that look up texels in two steps say so. Of a kernel that stores pixels, such a first one fetches while the group
 // before is worked on.
 template <class Body>
@@ -450,7 +452,7 @@ template <StageId... ids>
 constexpr Entry MakeEntry() {
   Entry entry{{ids...}, static_cast<int>(sizeof...(ids)), {&RunStages<BlockLanes, ids...>}};
   constexpr bool kPacks = (BodyOf<ids>::Type::kPacks && ...);
-  if constexpr (kPacks) entry.kernels.packed = &RunStages<PackedLanes, ids...>;
+  if constexpr (kPacks) entry.kernels.packed = &RunPacked<ids...>;
   constexpr bool kInTiles = (RunsInTiles<typename BodyOf<ids>::Type> && ...);
   constexpr bool kStores = (StoresPixels<typename BodyOf<ids>::Type> || ...);
   if constexpr (kInTiles) entry.kernels.row = &RunRowBlocks<ids...>;

@@ -298,9 +298,6 @@ struct PackedPlane {
 // Fragments of many small triangles, packed after their depth test; plane values were evaluated when they
 // came in. Stored in the order of the triangles, so where two fragments share a pixel the later one stays.
 struct PackedLanes {
-  static HWY_INLINE uint64_t Live(const BlockContext& c) {
-    return ~uint64_t{0} >> (kBlockPixels - c.queue->count);
-  }
   using Plane = PackedPlane;
   using PlaneOfAlpha = Plane;
   using PlaneDouble = BlockPlaneDouble;  // never used: what needs doubles is not packed

@@ -459,15 +459,14 @@ std::string_view stage_name(int id) {
   return id >= 0 && id < static_cast<int>(StageId::count) ? kNames[id] : std::string_view();
 }
 
-void BlockProgram::run_metered(BlockContext& block, int first, int last) const {
+void BlockProgram::run_metered(BlockContext& block, int kernel, uint64_t fragments) const {
   using Clock = std::chrono::steady_clock;
-  for (int i = first; i < last && block.live != 0; ++i) {
-    const auto id = static_cast<size_t>(stages[static_cast<size_t>(i)]);
-    block.meter->fragments[id] += static_cast<uint64_t>(__builtin_popcountll(block.live));
-    const Clock::time_point start = Clock::now();
-    kernels[static_cast<size_t>(i)](block);
-    block.meter->nanoseconds[id] += static_cast<uint64_t>((Clock::now() - start) / std::chrono::nanoseconds(1));
-  }
+  const auto at = static_cast<size_t>(kernel);
+  const auto id = static_cast<size_t>(stages[at]);
+  block.meter->fragments[id] += fragments;
+  const Clock::time_point start = Clock::now();
+  kernels[at](block);
+  block.meter->nanoseconds[id] += static_cast<uint64_t>((Clock::now() - start) / std::chrono::nanoseconds(1));
 }
 
 }  // namespace halfspace::raster

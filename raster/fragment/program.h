@@ -58,13 +58,26 @@ struct BlockProgram {
   void run_tail(BlockContext& block) const { run(block, head, count); }
   void run_depth(BlockContext& block) const { run(block, 0, 1); }
   void run_deferred(BlockContext& block) const { run(block, 1, count); }
+  // On the queue's fragments, none of which is lost on the way.
+  void run_packed(BlockContext& block) const {
+    for (int i = 0; i < count; ++i) {
+      if (block.meter != nullptr)
+        run_metered(block, i, static_cast<uint64_t>(block.queue->count));
+      else
+        kernels[static_cast<size_t>(i)](block);
+    }
+  }
 
  private:
   void run(BlockContext& block, int first, int last) const {
-    if (block.meter != nullptr) return run_metered(block, first, last);
-    for (int i = first; i < last && block.live != 0; ++i) kernels[static_cast<size_t>(i)](block);
+    for (int i = first; i < last && block.live != 0; ++i) {
+      if (block.meter != nullptr)
+        run_metered(block, i, static_cast<uint64_t>(__builtin_popcountll(block.live)));
+      else
+        kernels[static_cast<size_t>(i)](block);
+    }
   }
-  void run_metered(BlockContext& block, int first, int last) const;
+  void run_metered(BlockContext& block, int kernel, uint64_t fragments) const;
 };
 
 struct ProgramCode {

@@ -165,8 +165,7 @@ void ShadePacked(TileContext& t) {
   if ((t.deferred.blocks & t.packer.blocks) != 0) t.deferred.DropListed(queue.offset, queue.count);
   c.queue = &queue;
   c.color = t.framebuffer->color_tile<uint32_t>(t.tile, t.program->plane);
-  c.live = ~uint64_t{0} >> (kBlockPixels - queue.count);
-  t.program->packed[t.packer.variant].run(c);
+  t.program->packed[t.packer.variant].run_packed(c);
 }
 
 void FlushPacked(TileContext& t) {
