@@ -60,6 +60,19 @@ struct DeferralHistory {
   }
 };
 
+// Likewise, whether it pays to look for triangles behind others.
+struct HiddenHistory {
+  static constexpr uint8_t kPause = 15;
+  static constexpr uint64_t kLeast = 16;  // one of so many triangles
+  uint8_t pause = 0;
+  void note(uint64_t asked, uint64_t found) {
+    if (pause > 0)
+      --pause;
+    else if (found * kLeast < asked)
+      pause = kPause;
+  }
+};
+
 struct TileState {
   ColorMarks color[kMaxColorPlanes];
   uint64_t depth_is_clear = ~uint64_t{0};
@@ -75,6 +88,7 @@ struct TileState {
   uint32_t depth_min[kTileBlocks] = {};  // nor nearer than this, where depth_min_holds
   uint64_t depth_min_holds = 0;
   DeferralHistory deferrals;
+  HiddenHistory hidden;
 };
 
 // A framebuffer's storage as the tile workers see it.

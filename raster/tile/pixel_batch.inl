@@ -300,22 +300,23 @@ HWY_INLINE __mmask8 ShortSides(const SetupBatch& s) {
   return _mm256_cmplt_epi32_mask(size, _mm256_set1_epi32(1 << 15));
 }
 
-// Of these triangles of the batch, those of one variant that may be listed, and those without pixels.
+HWY_INLINE unsigned EmptyTriangles(const SetupBatch& s) { return WindowSizes(s).Empty(); }
+
+// Of these triangles of the batch, none of them without pixels, those of one variant that may be listed.
 HWY_INLINE unsigned ListableTriangles(const TileContext& t, unsigned all) {
   const SetupBatch& s = t.setup;
   if (!t.program->packs || IsWatched(t)) return 0;
   const WindowSizes sizes(s);
-  const unsigned empty = sizes.Empty() & all;
-  unsigned small = sizes.Below(kWideWindow) & ShortSides(s) & all & ~empty;
-  if (small == 0) return empty;
+  unsigned small = sizes.Below(kWideWindow) & ShortSides(s) & all;
+  if (small == 0) return 0;
   uint64_t variants;
   memcpy(&variants, s.variant, sizeof variants);
   const uint8_t variant = s.variant[__builtin_ctz(small)];
-  if ((variant & kDouble) != 0) return empty;
+  if ((variant & kDouble) != 0) return 0;
   if (t.program->variants[variant].groups != nullptr) small &= sizes.Below(kWindow);
   const __m128i same = _mm_cmpeq_epi8(_mm_cvtsi64_si128(static_cast<long long>(variants)),
                                       _mm_set1_epi8(static_cast<char>(variant)));
-  return empty | (small & static_cast<unsigned>(_mm_movemask_epi8(same)));
+  return small & static_cast<unsigned>(_mm_movemask_epi8(same));
 }
 
 void PackBlocks(TileContext& t, int lane, const uint64_t* masks, uint64_t blocks) {
@@ -340,12 +341,11 @@ void PackBlocks(TileContext& t, int lane, const uint64_t* masks, uint64_t blocks
   PackAllListed(t);
 }
 
-// Draws these triangles of the batch, which follow each other.
+// Draws these triangles of the batch, which follow each other but for triangles without pixels.
 HWY_INLINE void ListTriangles(TileContext& t, unsigned which) {
   const SetupBatch& s = t.setup;
   const WindowSizes sizes(s);
-  const auto lanes = static_cast<__mmask8>(which & ~unsigned{sizes.Empty()});
-  if (lanes == 0) return;
+  const auto lanes = static_cast<__mmask8>(which);
   ListedPixels& list = t.listed;
   list.variant = s.variant[__builtin_ctz(lanes)];
   const ListedWindows windows(s, sizes.width, sizes.height, lanes);
@@ -370,6 +370,7 @@ HWY_INLINE void ListTriangles(TileContext& t, unsigned which) {
   if (list.count != 0) PackAllListed(t);
 }
 #else
+HWY_INLINE unsigned EmptyTriangles(const SetupBatch&) { return 0; }
 HWY_INLINE unsigned ListableTriangles(const TileContext&, unsigned) { return 0; }
 HWY_INLINE void ListTriangles(TileContext&, unsigned) {}
 void PackBlocks(TileContext& t, int lane, const uint64_t* masks, uint64_t blocks) {

@@ -32,6 +32,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/tile/tile_ahead.inl"
 #include "raster/tile/deferred_pixels.inl"
 
+// What a tile's visit knows of triangles behind others (hidden_triangles.inl).
+struct HiddenTriangles {
+  static constexpr int kAtOnce = 32;   // triangles, before depths are looked up again (no difference with 16)
+  bool pauses = false, knows = false;  // whether nobody looks in this visit; whether somebody has looked
+  int since = 0;                       // triangles drawn after that
+  uint64_t drawn_on = 0;               // blocks that were drawn on after that
+  uint64_t asked = 0, left = 0;        // triangles
+};
+
 // What is the same for all primitives of a tile, and the scratch they share.
 struct TileContext {
   Framebuffer::Impl* framebuffer;
@@ -46,6 +55,7 @@ struct TileContext {
   int plane_count;
   bool flat_color;
   bool even = false;  // the primitive at hand takes the program's variant for one colour all over
+  HiddenTriangles hidden;
   bool knows_deepest = false;
   uint32_t deepest = 0;  // of the blocks' depth_max, where that is known
   PixelNote* notes;      // of the tile's pixels, where a view asks for them; then nothing waits to be packed
@@ -69,6 +79,7 @@ struct TileContext {
 
 #include "raster/tile/coarse_depth.inl"
 #include "raster/tile/fill.inl"
+#include "raster/tile/hidden_triangles.inl"
 
 HWY_INLINE void AddFragments(TileContext& t, int lane, uint64_t fragments) {
   t.statistics->fragments += fragments;
@@ -189,7 +200,9 @@ HWY_INLINE void PrepareWindow(TileContext& t, uint64_t blocks) {
   if (t.program->depth_may_grow)
     for (uint64_t todo = blocks; todo != 0; todo &= todo - 1) t.state->depth_max[__builtin_ctzll(todo)] = kDepthMax;
   if (t.program->depth_may_grow) t.knows_deepest = false;
-  if (t.program->writes_depth) t.state->depth_min_holds &= ~blocks;
+  if (!t.program->writes_depth) return;
+  t.state->depth_min_holds &= ~blocks;
+  t.hidden.drawn_on |= blocks;
 }
 
 // Makes room for `count` fragments of `variant` in `blocks` among those that wait, and gives the depth they are tested
@@ -348,20 +361,23 @@ void SelectDraw(TileContext& t, const DrawRecord& draw) {
 
 // Triangles in lanes [first, end) of the batch.
 void RunTriangles(TileContext& t, int first, int end) {
-  const unsigned lanes = (1u << end) - (1u << first);
+  const unsigned lanes = DropHidden(t, ((1u << end) - (1u << first)) & ~EmptyTriangles(t.setup));
+  if (lanes == 0) return;
   const unsigned listable = ListableTriangles(t, lanes);
   if (listable == lanes) return ListTriangles(t, listable);
   GroupBatch groups(t, lanes);
-  for (int lane = first; lane < end;) {
-    const int run = __builtin_ctz(~(listable >> lane));
+  for (unsigned todo = lanes; todo != 0;) {
+    const int lane = __builtin_ctz(todo);
+    const unsigned others = todo & ~listable, run = others != 0 ? todo & ((others & -others) - 1) : todo;
     if (run == 0 && groups.Add(lane)) {
-      ++lane;
+      todo &= todo - 1;
       continue;
     }
     groups.Draw();
-    if (run != 0) ListTriangles(t, ((1u << run) - 1) << lane);
+    if (run != 0)
+      ListTriangles(t, run);
     else RunTriangle(t, lane);
-    lane += run != 0 ? run : 1;
+    todo &= run != 0 ? ~run : todo - 1;
   }
   groups.Draw();
 }
@@ -512,6 +528,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   Poison(t.setup, t.deferred.setup, t.deferred.owner, t.input, t.planes, t.groups, t.group_tables, t.given_depth,
          t.listed.codes, t.line_pixels);
   t.input_is_clear = false;
+  t.hidden.pauses = framebuffer.tiles.data()[tile].hidden.pause > 0;
   t.deferred.pauses = framebuffer.tiles.data()[tile].deferrals.pause > 0;
   t.framebuffer = &framebuffer;
   t.state = &framebuffer.tiles.data()[tile];
@@ -530,6 +547,7 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
   FlushPacked(t);
   ShadeDeferred(t, t.deferred.blocks);
+  t.state->hidden.note(t.hidden.asked, t.hidden.asked - t.hidden.left);
   if (t.deferred.asked) t.state->deferrals.note(t.deferred.taken, t.deferred.shaded);
 }
 
