@@ -244,6 +244,22 @@ struct BlockMasks {
   }
 
   HWY_INLINE uint64_t Of(int block) const { return masks[block]; }
+  // Blocks with at most so many pixels inside, and some.
+  HWY_INLINE uint64_t AtMost(int pixels) const {
+    const __m512i ones = _mm512_broadcast_i32x4(_mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+    const __m512i low = _mm512_set1_epi8(15);
+    uint64_t few = 0;
+    for (uint64_t rows = touched; rows != 0;) {
+      const int row = __builtin_ctzll(rows) / 8;
+      const __m512i blocks = _mm512_load_si512(masks + row * 8);
+      const __m512i lower = _mm512_shuffle_epi8(ones, _mm512_and_si512(blocks, low));
+      const __m512i upper = _mm512_shuffle_epi8(ones, _mm512_and_si512(_mm512_srli_epi64(blocks, 4), low));
+      const __m512i count = _mm512_sad_epu8(_mm512_add_epi8(lower, upper), _mm512_setzero_si512());
+      few |= uint64_t{_mm512_cmple_epu64_mask(count, _mm512_set1_epi64(pixels))} << (row * 8);
+      rows &= ~uint64_t{0xff} << (row * 8);
+    }
+    return few & touched;
+  }
   HWY_INLINE void AddTo(GroupList& list, uint64_t blocks) const {
     const int first = __builtin_ctzll(blocks) / 8, last = (63 - __builtin_clzll(blocks)) / 8;
     const __m512i index = _mm512_slli_epi32(
@@ -326,6 +342,37 @@ void WalkGroups(TileContext& t, int lane, const BlockProgram& stages, bool colle
 // Tests and packs the pixels masks[block] of some blocks of the tile (pixel_batch.inl).
 void PackBlocks(TileContext& t, int lane, const uint64_t* masks, uint64_t blocks);
 
+// What a triangle covers: blocks that rows' kernels take, and `few`, of which little is covered and which are packed.
+struct RowWalk {
+  CoveredBlocks blocks{0, 0, nullptr};
+  uint64_t few = 0;
+
+  // memory: for the masks of all blocks, where there are others than those found.
+  HWY_INLINE RowWalk(const TileContext& t, const BlockMasks& found, bool packs, uint64_t* memory) {
+#if HWY_TARGET == HWY_AVX3
+    if (HWY_LIKELY(!t.masks_blocks)) {
+      few = packs ? found.AtMost(kPackAtMost) : 0;
+      blocks = {found.covered, found.touched & ~found.covered & ~few, found.masks};
+      return;
+    }
+#endif
+    blocks.masks = memory;
+    for (uint64_t todo = found.touched; todo != 0; todo &= todo - 1) {
+      const int block = __builtin_ctzll(todo);
+      const uint64_t mask = t.masks_blocks ? found.Of(block) & BlockMask(t, block) : found.Of(block);
+      memory[block] = mask;
+      const uint64_t bit = todo & -todo;
+      if (mask == 0) continue;
+      if (mask == ~uint64_t{0})
+        blocks.whole |= bit;
+      else if (packs && __builtin_popcountll(mask) <= kPackAtMost)
+        few |= bit;
+      else
+        blocks.parts |= bit;
+    }
+  }
+};
+
 // A triangle whose program takes the blocks of a tile's row in turn.
 void WalkRows(TileContext& t, int lane, const BlockProgram& stages, bool packs) {
   const SetupBatch& s = t.setup;
@@ -335,24 +382,10 @@ void WalkRows(TileContext& t, int lane, const BlockProgram& stages, bool packs) 
   const GroupWalk walk(s, lane);
   const BlockMasks found(walk, s, lane);
   if (found.touched == 0) return;
-  uint64_t masks[kTileBlocks] = {};
-  CoveredBlocks blocks{0, 0, masks};
-  uint64_t few = 0;
-  for (uint64_t todo = found.touched; todo != 0; todo &= todo - 1) {
-    const int block = __builtin_ctzll(todo);
-    const uint64_t mask = t.masks_blocks ? found.Of(block) & BlockMask(t, block) : found.Of(block);
-    if (mask == 0) continue;
-    masks[block] = mask;
-    const uint64_t bit = todo & -todo;
-    if (mask == ~uint64_t{0})
-      blocks.whole |= bit;
-    else if (packs && __builtin_popcountll(mask) <= kPackAtMost)
-      few |= bit;
-    else
-      blocks.parts |= bit;
-  }
+  uint64_t memory[kTileBlocks];
+  const RowWalk rows(t, found, packs, memory);
   // What waits for these blocks' pixels was drawn before and is stored before.
-  if ((t.packer.blocks & blocks.All()) != 0) FlushPacked(t);
-  if (blocks.All() != 0) RunCoveredBlocks(t, lane, blocks, stages);
-  if (few != 0) PackBlocks(t, lane, masks, few);
+  if ((t.packer.blocks & rows.blocks.All()) != 0) FlushPacked(t);
+  if (rows.blocks.All() != 0) RunCoveredBlocks(t, lane, rows.blocks, stages);
+  if (rows.few != 0) PackBlocks(t, lane, rows.blocks.masks, rows.few);
 }

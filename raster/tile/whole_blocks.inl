@@ -51,6 +51,13 @@ void DeferRows(TileContext& t, const CoveredBlocks& blocks, const BlockProgram& 
   }
 }
 
+HWY_INLINE void CountFragments(TileContext& t, int lane, const CoveredBlocks& blocks) {
+  int count = __builtin_popcountll(blocks.whole) * kBlockPixels;
+  for (uint64_t todo = blocks.parts; todo != 0; todo &= todo - 1)
+    count += __builtin_popcountll(blocks.masks[__builtin_ctzll(todo)]);
+  AddFragments(t, lane, static_cast<uint64_t>(count));
+}
+
 // The kernel that takes many, on blocks whose depth is settled, or not asked for.
 void RunTileKernel(TileContext& t, int lane, const CoveredBlocks& blocks, const TileCode& code) {
   const SetupBatch& s = t.setup;
@@ -64,9 +71,7 @@ void RunTileKernel(TileContext& t, int lane, const CoveredBlocks& blocks, const 
   c.dx = s.anchor_x[lane];
   c.dy = s.anchor_y[lane];
   c.lane = lane;
-  CountFragments(t, lane, blocks.whole);
-  for (uint64_t todo = blocks.parts; todo != 0; todo &= todo - 1)
-    CountFragments(t, lane, blocks.masks[__builtin_ctzll(todo)], 1);
+  CountFragments(t, lane, blocks);
   if (code.fills) return FillBlocks(t, blocks.whole, EvenPixel(t, lane, code.block));
   ColorMarks& marks = t.state->color[plane];
   if (code.overwrites) marks.is_clear &= ~blocks.whole;
