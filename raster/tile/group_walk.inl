@@ -387,5 +387,7 @@ void WalkRows(TileContext& t, int lane, const BlockProgram& stages, bool packs) 
   // What waits for these blocks' pixels was drawn before and is stored before.
   if ((t.packer.blocks & rows.blocks.All()) != 0) FlushPacked(t);
   if (rows.blocks.All() != 0) RunCoveredBlocks(t, lane, rows.blocks, stages);
-  if (rows.few != 0) PackBlocks(t, lane, rows.blocks.masks, rows.few);
+  if (rows.few == 0) return;
+  t.ahead.AskForSome(t.program->plane, t.program->reads_depth, true);
+  PackBlocks(t, lane, rows.blocks.masks, rows.few);
 }

@@ -28,11 +28,13 @@ void TakeDepth(TileContext& t, int lane, uint64_t blocks) {
 }
 
 // A row of the tile's blocks after the other.
-void RunRows(BlockContext& c, const CoveredBlocks& blocks, const TileCode& code) {
+void RunRows(TileContext& t, const CoveredBlocks& blocks, const TileCode& code) {
+  BlockContext& c = t.block;
   constexpr uint64_t kRow = (uint64_t{1} << kRowBlocks) - 1;
   for (int first = 0; first < kTileBlocks; first += kRowBlocks) {
     c.blocks = blocks.All() & kRow << first;
     if (c.blocks == 0) continue;
+    if (blocks.parts != 0) t.ahead.AskForSome(t.program->plane, t.program->reads_depth, true);
     for (int k = 0; k < kRowBlocks; ++k) c.row_live[k] = blocks.Of(first + k);
     for (int i = 0; i < code.row_count && c.blocks != 0; ++i) code.row[static_cast<size_t>(i)](c);
   }
@@ -45,6 +47,7 @@ void DeferRows(TileContext& t, const CoveredBlocks& blocks, const BlockProgram& 
   for (int first = 0; first < kTileBlocks; first += kRowBlocks) {
     c.blocks = blocks.All() & kRow << first;
     if (c.blocks == 0) continue;
+    if (blocks.parts != 0) t.ahead.AskForSome(t.program->plane, t.program->reads_depth, true);
     for (int k = 0; k < kRowBlocks; ++k) c.row_live[k] = blocks.Of(first + k);
     if (tests_depth) stages.whole.row[0](c);
     t.deferred.Take(c.blocks, c.row_live);
@@ -81,7 +84,7 @@ void RunTileKernel(TileContext& t, int lane, const CoveredBlocks& blocks, const 
   c.blocks = blocks.All();
   if (taker != nullptr) DeferRows(t, blocks, *taker, &code == &taker->whole);
   else if (code.tile != nullptr) code.tile(c);
-  else RunRows(c, blocks, code);
+  else RunRows(t, blocks, code);
 }
 
 // Where being nearer decides nothing.
