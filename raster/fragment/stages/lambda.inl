@@ -173,7 +173,7 @@ struct LambdaAtW {
     const VF longer =
         hn::Max(FillRows(once.along_x + Gradients<L>::Row(i)), RepeatColumns(once.AlongY() + L::Column(i)));
     const VF log_w = Log2(v.slot[kW]);
-    v.slot[kLambda] = hn::Add(longer, hn::Add(log_w, log_w));
+    v.slot[kLambda] = hn::Add(longer, hn::Mul(log_w, hn::Set(DF(), 2.0f)));
   }
 
  private:

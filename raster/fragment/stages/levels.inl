@@ -3,26 +3,31 @@
 struct ChooseLevel {
   static constexpr bool kKills = false, kPacks = false, kInTiles = true;
   template <class L>
-  using Once = NothingOnce;
+  struct Once {
+    VF last, magnify_below, magnified;
+    MipMode mip;
+    HWY_INLINE explicit Once(const BlockContext& c)
+        : last(hn::Set(DF(), static_cast<float>(c.params->level_count - 1))),
+          magnify_below(hn::Set(DF(), c.params->magnify_below)),
+          magnified(hn::Set(DF(), c.params->sampler.mag == c.params->sampler.min ? 0.0f : -1.0f)),
+          mip(c.params->sampler.mip) {}
+  };
   template <class L>
-  static HWY_INLINE void Run(const BlockContext& c, const Once<L>&, int, Lanes& v) {
+  static HWY_INLINE void Run(const BlockContext&, const Once<L>& once, int, Lanes& v) {
     const DF d;
-    const FragmentParams& p = *c.params;
     const VF lambda = v.slot[kLambda];
-    const MF magnify = hn::Le(lambda, hn::Set(d, p.magnify_below));
-    const VF last = hn::Set(d, static_cast<float>(p.level_count - 1));
-    const VF clamped = HeldBelow(NotNegative(lambda), last);
+    const MF magnify = hn::Le(lambda, once.magnify_below);
+    const VF clamped = HeldBelow(NotNegative(lambda), once.last);
     VF level = hn::Zero(d), blend = hn::Zero(d);
-    if (p.sampler.mip == MipMode::nearest) {
+    if (once.mip == MipMode::nearest) {
       // d = ceil(lambda + 1/2) - 1, level 0 for lambda <= 1/2.
       const VF up = hn::Sub(hn::Ceil(hn::Add(clamped, hn::Set(d, 0.5f))), hn::Set(d, 1.0f));
-      level = HeldBelow(NotNegative(up), last);
-    } else if (p.sampler.mip == MipMode::linear) {
+      level = HeldBelow(NotNegative(up), once.last);
+    } else if (once.mip == MipMode::linear) {
       level = hn::Floor(clamped);
       blend = hn::Sub(clamped, level);
     }
-    const float magnified = p.sampler.mag == p.sampler.min ? 0.0f : -1.0f;
-    v.slot[kMipKey] = hn::IfThenElse(magnify, hn::Set(d, magnified), level);
+    v.slot[kMipKey] = hn::IfThenElse(magnify, once.magnified, level);
     v.slot[kMipBlend] = hn::IfThenZeroElse(magnify, blend);
   }
 };
