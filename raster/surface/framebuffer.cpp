@@ -82,17 +82,8 @@ void Framebuffer::Impl::settle_depth(size_t tile, uint64_t mask) {
   TileState& state = tiles[tile];
   settle_words(state.depth_is_clear, mask, state.clear_depth, depth_tile(tile));
   if ((state.depth_on_plane & mask) == 0) return;
-  const DepthPlane plane = state.depth_plane;
-  double across[kTileSize];
-  for (int x = 0; x < kTileSize; ++x) across[x] = plane.across(x);
-  settle(state.depth_on_plane, mask, [&](int block) {
-    uint32_t* out = depth_tile(tile) + block * kBlockPixels;
-    const double* columns = across + block % 8 * kBlockSize;
-    for (int y = 0; y < kBlockSize; ++y, out += kBlockSize) {
-      const double row = plane.row(block / 8 * kBlockSize + y);
-      for (int x = 0; x < kBlockSize; ++x) out[x] = DepthPlane::depth(row, columns[x]);
-    }
-  });
+  row_functions().fill_depth(state.depth_plane, state.depth_on_plane & mask, depth_tile(tile));
+  state.depth_on_plane &= ~mask;
 }
 
 void Framebuffer::Impl::settle_stencil(size_t tile, uint64_t mask) {

@@ -95,7 +95,28 @@ void WriteOver(uint32_t value, int width, const PlacedBlock* blocks, int count, 
 
 void FillWords(uint32_t value, int width, uint32_t* to) { FillRow(value, width, to); }
 
-RowFunctions Functions() { return {&WriteRuns, &WriteOver, &FillWords}; }
+// As DepthPlane::depth has it.
+void FillDepth(const DepthPlane& plane, uint64_t blocks, uint32_t* tile) {
+  const hn::CappedTag<double, kBlockSize> d;
+  const hn::Rebind<int32_t, decltype(d)> words;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(hn::CappedTag<double, kBlockSize>()));
+  alignas(64) double across[kTileSize];
+  for (int x = 0; x < kTileSize; ++x) across[x] = plane.across(x);
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int block = __builtin_ctzll(blocks);
+    const double* columns = across + block % 8 * kBlockSize;
+    auto* to = reinterpret_cast<int32_t*>(tile + block * kBlockPixels);
+    for (int y = 0; y < kBlockSize; ++y, to += kBlockSize) {
+      const auto row = hn::Set(d, plane.row(block / 8 * kBlockSize + y));
+      for (int x = 0; x < kBlockSize; x += kLanes) {
+        const auto sum = hn::Add(row, hn::Load(d, columns + x));
+        hn::Store(hn::DemoteTo(words, hn::IfThenElseZero(hn::Gt(sum, hn::Zero(d)), sum)), words, to + x);
+      }
+    }
+  }
+}
+
+RowFunctions Functions() { return {&WriteRuns, &WriteOver, &FillWords, &FillDepth}; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace halfspace::raster

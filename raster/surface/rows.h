@@ -34,6 +34,8 @@ struct RowFunctions {
   void (*write_over)(uint32_t value, int width, const PlacedBlock* blocks, int count, const PixelRows& out);
   // `width` times the same.
   void (*fill_row)(uint32_t value, int width, uint32_t* to);
+  // The plane's depth in a tile's blocks that `blocks` are the bits of.
+  void (*fill_depth)(const DepthPlane& plane, uint64_t blocks, uint32_t* tile);
 };
 // Those of the level in use.
 RowFunctions row_functions();
