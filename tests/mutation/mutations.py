@@ -150,6 +150,9 @@ MUTATIONS = [
              "deferred_colors_test:*"),
     Mutation("what packed pixels draw over is shaded all the same", "raster/tile/tile_worker.cpp",
              "t.deferred.DropListed(queue.offset, queue.count);", ";", "deferred_colors_test:*"),
+    Mutation("a block is as deep as its nearest pixel", "raster/tile/hidden_triangles.inl",
+             "deepest = hn::Max(deepest, hn::Load(d, pixels + i))", "deepest = hn::Min(deepest, hn::Load(d, pixels + i))",
+             "hidden_triangles_test:*"),
     Mutation("blending does not wait for colours it looks at", "raster/tile/deferred_pixels.inl",
              "draw.program->covers && ", "", "deferred_colors_test:*"),
 
