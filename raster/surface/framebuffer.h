@@ -47,28 +47,17 @@ struct DepthPlane {
   }
 };
 
-// Whether it pays in a tile to defer colours until it is known what is drawn over them. Where too few were drawn over at
-// the last visit, some visits pass until it is tried again. The picture does not depend on it.
-struct DeferralHistory {
-  static constexpr uint8_t kPause = 15;   // visits
-  static constexpr uint64_t kLeast = 8;  // pays if one of so many pixels need not be shaded
+// Whether it pays in a tile to try something: for one of kLeast at least. Where it did not at the last visit, some visits
+// pass until it is tried again. The picture does not depend on it.
+template <uint64_t kLeast>
+struct TrialHistory {
+  static constexpr uint8_t kPause = 15;  // visits
   uint8_t pause = 0;
-  // After a visit with something to defer: pixels that were, and those that had to be shaded.
-  void note(uint64_t deferred, uint64_t shaded) {
-    if (pause > 0) --pause;
-    else if ((deferred - shaded) * kLeast < deferred) pause = kPause;
-  }
-};
-
-// Likewise, whether it pays to look for triangles behind others.
-struct HiddenHistory {
-  static constexpr uint8_t kPause = 15;
-  static constexpr uint64_t kLeast = 6;  // one of so many triangles (with one of 16 tri_100px takes 1.03)
-  uint8_t pause = 0;
-  void note(uint64_t asked, uint64_t found) {
+  // After a visit: how many it was tried for, and for how many it paid.
+  void note(uint64_t tried, uint64_t paid) {
     if (pause > 0)
       --pause;
-    else if (found * kLeast < asked)
+    else if (paid * kLeast < tried)
       pause = kPause;
   }
 };
@@ -87,8 +76,8 @@ struct TileState {
   uint32_t depth_max[kTileBlocks] = {};  // no pixel of the block lies deeper: 24-bit, coarse z
   uint32_t depth_min[kTileBlocks] = {};  // nor nearer than this, where depth_min_holds
   uint64_t depth_min_holds = 0;
-  DeferralHistory deferrals;
-  HiddenHistory hidden;
+  TrialHistory<8> deferrals;  // pixels whose colours wait, and those that then need not be shaded
+  TrialHistory<6> hidden;     // triangles, and those behind others (with one of 16 tri_100px takes 1.03)
 };
 
 // A framebuffer's storage as the tile workers see it.

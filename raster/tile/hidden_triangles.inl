@@ -92,8 +92,8 @@ HWY_INLINE unsigned DropHidden(TileContext& t, unsigned lanes) {
   h.since += __builtin_popcount(lanes);
   if (h.since > HiddenTriangles::kAtOnce) LookUpDepths(t);
   if (!h.knows) return lanes;
-  const unsigned left = lanes & ~HiddenLanes(t.setup, lanes, *t.state);
+  const unsigned hidden = lanes & HiddenLanes(t.setup, lanes, *t.state);
   h.asked += static_cast<uint64_t>(__builtin_popcount(lanes));
-  h.left += static_cast<uint64_t>(__builtin_popcount(left));
-  return left;
+  h.found += static_cast<uint64_t>(__builtin_popcount(hidden));
+  return lanes & ~hidden;
 }

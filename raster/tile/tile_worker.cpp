@@ -38,7 +38,7 @@ struct HiddenTriangles {
   bool pauses = false, knows = false;  // whether nobody looks in this visit; whether somebody has looked
   int since = 0;                       // triangles drawn after that
   uint64_t drawn_on = 0;               // blocks that were drawn on after that
-  uint64_t asked = 0, left = 0;        // triangles
+  uint64_t asked = 0, found = 0;       // triangles
 };
 
 // What is the same for all primitives of a tile, and the scratch they share.
@@ -84,10 +84,6 @@ struct TileContext {
 HWY_INLINE void AddFragments(TileContext& t, int lane, uint64_t fragments) {
   t.statistics->fragments += fragments;
   if ((t.setup.variant[lane] & kDouble) != 0) t.statistics->double_fragments += fragments;
-}
-// Of each bit of `mask`, as many as `each`: of blocks, all their pixels.
-HWY_INLINE void CountFragments(TileContext& t, int lane, uint64_t mask, int each = kBlockPixels) {
-  AddFragments(t, lane, static_cast<uint64_t>(__builtin_popcountll(mask)) * static_cast<uint64_t>(each));
 }
 
 #include "raster/tile/deferred.inl"
@@ -144,7 +140,7 @@ void RunBlock(TileContext& t, int lane, int block, uint64_t mask) {
   if (HWY_UNLIKELY(t.notes != nullptr)) NoteBlock(t, lane, block, mask);
   c.lane = lane;
   c.live = mask;
-  CountFragments(t, lane, mask, 1);
+  AddFragments(t, lane, static_cast<uint64_t>(__builtin_popcountll(mask)));
   const BlockProgram& stages = t.even ? program.even : program.variants[s.variant[lane]];
   if (program.both_planes) RunOnBothPlanes(t, stages, block);
   else if (defers) DeferBlock(t, stages, block);
@@ -547,8 +543,8 @@ void RunTile(std::span<Segment* const> segments, Framebuffer::Impl& framebuffer,
   for (size_t i = 0; i < segments.size(); ++i) RunSegment(t, *segments.data()[i]);
   FlushPacked(t);
   ShadeDeferred(t, t.deferred.blocks);
-  t.state->hidden.note(t.hidden.asked, t.hidden.asked - t.hidden.left);
-  if (t.deferred.asked) t.state->deferrals.note(t.deferred.taken, t.deferred.shaded);
+  t.state->hidden.note(t.hidden.asked, t.hidden.found);
+  if (t.deferred.asked) t.state->deferrals.note(t.deferred.taken, t.deferred.taken - t.deferred.shaded);
 }
 
 }  // namespace HWY_NAMESPACE
